@@ -8,7 +8,7 @@
 #include <string>
 
 #include "app/recording/frame_shape.h"
-#include "app/state/window_settings.h"
+#include "app/state/settings/window_settings.h"
 #include "simulation/practice/hands/hands.h"
 #include "simulation/practice/session_options.h"
 #include "simulation/scope/camera_head.h"

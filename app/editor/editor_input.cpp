@@ -11,7 +11,7 @@
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
-#include "app/steps/tissue/tissue_cut.h"
+#include "app/steps/tissue/cut/tissue_cut.h"
 
 namespace arthro::app {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/platform/script_runner.h"
+#include "app/platform/script/script_runner.h"
 #include "app/platform/window.h"
 #include "app/state/editor_state.h"
 

@@ -2,7 +2,7 @@
 
 #include "app/files/recovery_folder.h"
 #include "app/platform/resource_folder.h"
-#include "app/state/recent_scenes.h"
+#include "app/state/settings/recent_scenes.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/options_json.h"
 

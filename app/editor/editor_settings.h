@@ -9,7 +9,7 @@
 #include "app/platform/monitor_size.h"
 #include "app/platform/translation.h"
 #include "app/platform/window.h"
-#include "app/state/window_settings.h"
+#include "app/state/settings/window_settings.h"
 
 namespace arthro::app {
 

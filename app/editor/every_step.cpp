@@ -19,7 +19,7 @@
 #include "app/steps/solids/solid_edit.h"
 #include "app/steps/tissue/fault_board.h"
 #include "app/steps/tissue/import_frames.h"
-#include "app/steps/tissue/tissue_library.h"
+#include "app/steps/tissue/library/tissue_library.h"
 #include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {

@@ -4,7 +4,7 @@
 
 #include <imgui.h>
 
-#include "app/editor/landmark_marks.h"
+#include "app/editor/marks/landmark_marks.h"
 #include "app/steps/tissue/landmark_mode.h"
 #include "simulation/scene/projection.h"
 

@@ -6,7 +6,7 @@
 
 #include "app/panels/fixed_window.h"
 #include "app/state/editor_state.h"
-#include "app/state/picture_zoom.h"
+#include "app/state/settings/picture_zoom.h"
 
 namespace arthro::app {
 

@@ -4,8 +4,8 @@
 
 #include <imgui.h>
 
-#include "app/editor/brush_marks.h"
-#include "app/editor/landmark_marks.h"
+#include "app/editor/marks/brush_marks.h"
+#include "app/editor/marks/landmark_marks.h"
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_brush.h"
 #include "app/steps/depth/touch_probe.h"

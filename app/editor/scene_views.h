@@ -2,10 +2,10 @@
 // brushes, landmarks, clicks, and marks over both.
 #pragma once
 
-#include "app/editor/footage_textures.h"
 #include "app/editor/panels/panels.h"
 #include "app/editor/panorama_clicks.h"
-#include "app/editor/pictures.h"
+#include "app/editor/pictures/footage_textures.h"
+#include "app/editor/pictures/pictures.h"
 
 namespace arthro::app {
 

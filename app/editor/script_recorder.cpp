@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "app/platform/script.h"
+#include "app/platform/script/script.h"
 
 namespace arthro::app {
 namespace {

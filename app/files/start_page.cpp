@@ -9,7 +9,7 @@
 #include "app/files/scene_files.h"
 #include "app/platform/resource_folder.h"
 #include "app/state/command.h"
-#include "app/steps/tissue/tissue_library.h"
+#include "app/steps/tissue/library/tissue_library.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
 

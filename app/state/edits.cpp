@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/state/footage_optics.h"
-#include "app/state/footage_source.h"
+#include "app/state/footage/footage_optics.h"
+#include "app/state/footage/footage_source.h"
 #include "authoring/project/document_io.h"
 #include "authoring/project/free_tissue_name.h"
 

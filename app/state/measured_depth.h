@@ -5,7 +5,7 @@
 #include <string>
 
 #include "app/state/editor_state.h"
-#include "app/state/measured_backdrop.h"
+#include "app/state/footage/measured_backdrop.h"
 #include "simulation/scene/lens.h"
 
 namespace arthro::app {

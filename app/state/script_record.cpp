@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "app/platform/script.h"
+#include "app/platform/script/script.h"
 #include "app/state/command.h"
 #include "app/state/editor_state.h"
 

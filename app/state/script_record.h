@@ -1,6 +1,6 @@
-// A session as it is written down to be repeated (app/platform/script.h): commands by name, items
-// by what is written on them. Commands and dialogs note here what was done; the editor's recorder
-// (app/editor/script_recorder.h) adds what was done to the window's items.
+// A session as it is written down to be repeated (app/platform/script/script.h): commands by name,
+// items by what is written on them. Commands and dialogs note here what was done; the editor's
+// recorder (app/editor/script_recorder.h) adds what was done to the window's items.
 #pragma once
 
 #include <filesystem>

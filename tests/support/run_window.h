@@ -1,5 +1,5 @@
 // Runs a job that opens a window, on an X server of its own, driven by a text script
-// (app/platform/script.h).
+// (app/platform/script/script.h).
 #pragma once
 
 #include <cstdlib>

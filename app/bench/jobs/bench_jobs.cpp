@@ -19,11 +19,11 @@
 #include "app/bench/tissue/tissue_bench.h"
 #include "app/bench/view/look_bench.h"
 #include "app/bench/view/view_bench.h"
+#include "app/cli/flags/number_flags.h"
+#include "app/cli/flags/options_cli.h"
 #include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
-#include "app/cli/number_flags.h"
-#include "app/cli/options_cli.h"
 #include "simulation/core/atomic_file.h"
 
 namespace arthro::app {

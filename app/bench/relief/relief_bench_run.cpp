@@ -9,7 +9,7 @@
 #include "app/bench/relief/colmap_peer.h"
 #include "app/bench/relief/relief_bench.h"
 #include "app/bench/relief/touch_error.h"
-#include "app/state/measured_backdrop.h"
+#include "app/state/footage/measured_backdrop.h"
 #include "authoring/depth/depth_filter.h"
 #include "authoring/panorama/make_panorama.h"
 #include "authoring/relief/make/make_relief.h"

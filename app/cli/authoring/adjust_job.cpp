@@ -8,12 +8,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/flags/number_flags.h"
+#include "app/cli/flags/pixel_flags.h"
 #include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
-#include "app/cli/number_flags.h"
 #include "app/cli/output_check.h"
-#include "app/cli/pixel_flags.h"
 #include "app/state/scratch_folder.h"
 #include "authoring/adjustment/crop_backdrop.h"
 #include "authoring/adjustment/mirror_scene.h"

@@ -9,11 +9,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/cli/ball_flag.h"
+#include "app/cli/flags/ball_flag.h"
+#include "app/cli/flags/options_cli.h"
 #include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
-#include "app/cli/options_cli.h"
 #include "app/cli/output_check.h"
 #include "authoring/alignment/align_report.h"
 #include "authoring/alignment/landmark_file.h"

@@ -8,11 +8,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/flags/number_flags.h"
+#include "app/cli/flags/options_cli.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
-#include "app/cli/number_flags.h"
-#include "app/cli/options_cli.h"
 #include "authoring/footage/find_circle.h"
 #include "authoring/lens/calibrate_lens.h"
 #include "authoring/lens/calibration_report.h"

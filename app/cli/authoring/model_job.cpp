@@ -11,12 +11,12 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "app/cli/flags/number_flags.h"
+#include "app/cli/flags/options_cli.h"
 #include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
-#include "app/cli/number_flags.h"
-#include "app/cli/options_cli.h"
 #include "authoring/models/meniscus_tear.h"
 #include "authoring/models/model_in_scene.h"
 #include "authoring/models/model_library.h"

@@ -11,16 +11,16 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/flags/number_flags.h"
+#include "app/cli/flags/options_cli.h"
+#include "app/cli/flags/pixel_flags.h"
 #include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
-#include "app/cli/number_flags.h"
-#include "app/cli/options_cli.h"
-#include "app/cli/pixel_flags.h"
-#include "app/state/footage_optics.h"
-#include "app/state/footage_source.h"
-#include "app/state/measured_backdrop.h"
+#include "app/state/footage/footage_optics.h"
+#include "app/state/footage/footage_source.h"
+#include "app/state/footage/measured_backdrop.h"
 #include "authoring/adjustment/crop_backdrop.h"
 #include "authoring/panorama/crop_panorama.h"
 #include "authoring/panorama/make_panorama.h"

@@ -5,10 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/flags/options_cli.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
-#include "app/cli/options_cli.h"
 #include "authoring/phantom/clip/phantom_footage.h"
 #include "authoring/phantom/phantom_io.h"
 

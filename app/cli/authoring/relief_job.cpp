@@ -10,14 +10,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/flags/number_flags.h"
+#include "app/cli/flags/options_cli.h"
+#include "app/cli/flags/pixel_flags.h"
 #include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
-#include "app/cli/number_flags.h"
-#include "app/cli/options_cli.h"
-#include "app/cli/pixel_flags.h"
-#include "app/state/measured_backdrop.h"
+#include "app/state/footage/measured_backdrop.h"
 #include "authoring/panorama/report_io.h"
 #include "authoring/project/document_io.h"
 #include "authoring/relief/make/make_relief.h"

@@ -12,12 +12,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/cli/ball_flag.h"
+#include "app/cli/flags/ball_flag.h"
+#include "app/cli/flags/number_flags.h"
+#include "app/cli/flags/options_cli.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
-#include "app/cli/number_flags.h"
-#include "app/cli/options_cli.h"
 #include "authoring/tissue/tetrahedra/mesh_budget.h"
 #include "authoring/tissue/tetrahedra/tetgen_worker.h"
 #include "authoring/tissue/tetrahedra/tetrahedralize.h"

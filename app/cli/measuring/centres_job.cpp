@@ -8,10 +8,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/flags/number_flags.h"
 #include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
-#include "app/cli/number_flags.h"
 #include "app/steps/portals/centres_figure.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"

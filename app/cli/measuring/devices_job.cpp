@@ -13,11 +13,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/flags/number_flags.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/measuring/device_words.h"
-#include "app/cli/number_flags.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/device/live/device_survey.h"

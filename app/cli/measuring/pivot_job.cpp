@@ -7,10 +7,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/cli/flags/number_flags.h"
+#include "app/cli/flags/options_cli.h"
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
-#include "app/cli/number_flags.h"
-#include "app/cli/options_cli.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"

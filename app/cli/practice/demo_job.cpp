@@ -13,10 +13,10 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/flags/number_flags.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
-#include "app/cli/number_flags.h"
 #include "app/cli/practice/replay_pictures.h"
 #include "app/cli/practice/shipped_presets.h"
 #include "app/platform/resource_folder.h"

@@ -6,11 +6,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/cli/flags/number_flags.h"
+#include "app/cli/flags/options_cli.h"
 #include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
-#include "app/cli/number_flags.h"
-#include "app/cli/options_cli.h"
 #include "app/cli/practice/window_flags.h"
 #include "app/editor/editor.h"
 #include "app/recording/live_film.h"

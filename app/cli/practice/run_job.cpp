@@ -12,7 +12,7 @@
 #include "app/editor/editor.h"
 #include "app/editor/every_step.h"
 #include "app/platform/own_display.h"
-#include "app/platform/script.h"
+#include "app/platform/script/script.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/input_file.h"
 

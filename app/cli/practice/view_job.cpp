@@ -7,10 +7,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/flags/options_cli.h"
 #include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
-#include "app/cli/options_cli.h"
 #include "app/cli/practice/shipped_presets.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/cli/flags/number_flags.h"
 #include "app/cli/job_files.h"
-#include "app/cli/number_flags.h"
 #include "app/cli/records/records_job.h"
 #include "app/records/attempts/attempts.h"
 #include "app/records/attempts/outbox.h"

@@ -12,7 +12,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/state/editor_state.h"
-#include "app/state/picture_zoom.h"
+#include "app/state/settings/picture_zoom.h"
 #include "app/steps/depth/depth_brush.h"
 #include "authoring/relief/editing/relief_profile.h"
 #include "authoring/relief/editing/relief_view.h"

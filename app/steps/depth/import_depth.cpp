@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/state/edits.h"
-#include "app/state/measured_backdrop.h"
+#include "app/state/footage/measured_backdrop.h"
 #include "app/steps/depth/depth_step.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"

@@ -8,7 +8,7 @@
 
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
-#include "app/steps/panorama/board_picture.h"
+#include "app/steps/panorama/board/board_picture.h"
 #include "app/steps/panorama/panorama_step.h"
 #include "authoring/adjustment/crop_backdrop.h"
 #include "authoring/adjustment/mirror_scene.h"

@@ -6,7 +6,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "app/steps/panorama/footage_board.h"
+#include "app/steps/panorama/board/footage_board.h"
 
 namespace arthro::app {
 

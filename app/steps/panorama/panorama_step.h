@@ -8,7 +8,7 @@
 
 #include "app/state/command.h"
 #include "app/steps/panorama/adjust_board.h"
-#include "app/steps/panorama/footage_board.h"
+#include "app/steps/panorama/board/footage_board.h"
 
 namespace arthro::app {
 

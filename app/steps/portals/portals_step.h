@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/state/command.h"
-#include "app/steps/panorama/lens_choice.h"
+#include "app/steps/panorama/board/lens_choice.h"
 #include "app/steps/portals/reach_board.h"
 
 namespace arthro::app {

@@ -5,7 +5,7 @@
 #include "app/state/command.h"
 #include "app/state/dialogs.h"
 #include "app/state/edits.h"
-#include "app/state/footage_optics.h"
+#include "app/state/footage/footage_optics.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/json/lens_io.h"
 

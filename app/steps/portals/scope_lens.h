@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/state/editor_state.h"
-#include "app/steps/panorama/lens_choice.h"
+#include "app/steps/panorama/board/lens_choice.h"
 
 namespace arthro::app {
 

@@ -9,7 +9,7 @@
 #include "app/panels/command_button.h"
 #include "app/state/edits.h"
 #include "app/steps/solids/solid_edit.h"
-#include "app/steps/tissue/axis_row.h"
+#include "app/steps/tissue/pages/axis_row.h"
 #include "app/steps/tissue/tissue_pose.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "simulation/core/units.h"

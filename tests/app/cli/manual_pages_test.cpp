@@ -1,5 +1,5 @@
 // Manual pages and completion name every job and every flag, and nothing else.
-#include "app/cli/manual_pages.h"
+#include "app/cli/manual/manual_pages.h"
 
 #include <algorithm>
 #include <regex>

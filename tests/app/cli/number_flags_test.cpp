@@ -1,5 +1,5 @@
-// One rule for the numbers of every flag of every job (app/cli/number_flags.h).
-#include "app/cli/number_flags.h"
+// One rule for the numbers of every flag of every job (app/cli/flags/number_flags.h).
+#include "app/cli/flags/number_flags.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
-// Parameters of a job as flags, --options FILE and --dump-options (app/cli/options_cli.h).
-#include "app/cli/options_cli.h"
+// Parameters of a job as flags, --options FILE and --dump-options (app/cli/flags/options_cli.h).
+#include "app/cli/flags/options_cli.h"
 
 #include <algorithm>
 #include <string>

@@ -1,6 +1,6 @@
 // Relief measured from footage in the command layer, without a window. The measurements here are
 // made up; what the real one finds is tested with authoring/relief.
-#include "app/steps/panorama/relief_run.h"
+#include "app/steps/panorama/board/relief_run.h"
 
 #include <atomic>
 #include <chrono>
@@ -13,10 +13,10 @@
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
 #include "app/steps/depth/depth_step.h"
-#include "app/steps/panorama/footage_words.h"
+#include "app/steps/panorama/board/footage_words.h"
+#include "app/steps/panorama/board/motion_plan.h"
+#include "app/steps/panorama/board/panorama_run.h"
 #include "app/steps/panorama/footage_work.h"
-#include "app/steps/panorama/motion_plan.h"
-#include "app/steps/panorama/panorama_run.h"
 #include "simulation/scene/image_io.h"
 #include "tests/app/commands/settle.h"
 #include "tests/support/temp_folder.h"

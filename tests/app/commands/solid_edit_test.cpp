@@ -10,7 +10,7 @@
 #include "app/editor/every_step.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
-#include "app/steps/tissue/tissue_cut.h"
+#include "app/steps/tissue/cut/tissue_cut.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/practice/cut_skin.h"

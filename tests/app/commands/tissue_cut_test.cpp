@@ -1,5 +1,5 @@
 // The author's cuts, without a window.
-#include "app/steps/tissue/tissue_cut.h"
+#include "app/steps/tissue/cut/tissue_cut.h"
 
 #include <algorithm>
 #include <memory>
@@ -11,7 +11,7 @@
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
-#include "app/steps/tissue/cut_skins.h"
+#include "app/steps/tissue/cut/cut_skins.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::app {

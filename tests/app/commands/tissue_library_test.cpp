@@ -1,5 +1,5 @@
 // Models of the library and kinds of tears, without a window.
-#include "app/steps/tissue/tissue_library.h"
+#include "app/steps/tissue/library/tissue_library.h"
 
 #include <chrono>
 #include <memory>

@@ -1,5 +1,5 @@
-// Looks and language of the window (app/state/window_settings.h).
-#include "app/state/window_settings.h"
+// Looks and language of the window (app/state/settings/window_settings.h).
+#include "app/state/settings/window_settings.h"
 
 #include <cstdlib>
 #include <fstream>

@@ -1,7 +1,7 @@
 // A careless user: opens every page, list and dialog, moves every control to both ends and types
-// nonsense (app/platform/crawler.h), in windows of all sizes. Dear ImGui's assertions are compiled
-// into Debian's library, so that its abort is a failure here; the last line of what the program
-// said is the action that it came from.
+// nonsense (app/platform/script/crawler.h), in windows of all sizes. Dear ImGui's assertions are
+// compiled into Debian's library, so that its abort is a failure here; the last line of what the
+// program said is the action that it came from.
 //   ARTHROSCENE_CRAWL_ACTIONS=2000 ARTHROSCENE_CRAWL_SEED=7: longer, or another way
 #include <algorithm>
 #include <cstdlib>

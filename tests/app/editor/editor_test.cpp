@@ -1,4 +1,5 @@
-// The window as its users meet it: scripts click by name, type and look (app/platform/script.h).
+// The window as its users meet it: scripts click by name, type and look
+// (app/platform/script/script.h).
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
 // An incision calibrated, and the validation figure saved, as their users do it: scripts click by
-// name, hold keys and look (app/platform/script.h).
+// name, hold keys and look (app/platform/script/script.h).
 #include <filesystem>
 
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-#include "app/editor/picture_rest.h"
+#include "app/editor/pictures/picture_rest.h"
 
 #include <gtest/gtest.h>
 

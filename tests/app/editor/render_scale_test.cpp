@@ -1,4 +1,4 @@
-#include "app/editor/render_scale.h"
+#include "app/editor/pictures/render_scale.h"
 
 #include <cmath>
 #include <limits>

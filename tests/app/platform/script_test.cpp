@@ -1,5 +1,5 @@
-// Scripts that drive the window (app/platform/script.h, script_runner.h).
-#include "app/platform/script.h"
+// Scripts that drive the window (app/platform/script/script.h, script_runner.h).
+#include "app/platform/script/script.h"
 
 #include <algorithm>
 #include <map>
@@ -7,8 +7,8 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
-#include "app/platform/crawler.h"
-#include "app/platform/script_runner.h"
+#include "app/platform/script/crawler.h"
+#include "app/platform/script/script_runner.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {

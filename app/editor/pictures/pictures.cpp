@@ -1,0 +1,516 @@
+#include "app/editor/pictures/pictures.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "app/state/edits.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/lessons/exercise_edit.h"
+#include "app/steps/lessons/lessons_step.h"
+#include "app/steps/portals/portals_step.h"
+#include "app/steps/portals/reach_board.h"
+#include "app/steps/practice/practice_step.h"
+#include "app/steps/tissue/cut/tissue_cut.h"
+#include "app/steps/tissue/fault_board.h"
+#include "app/steps/tissue/import_frames.h"
+#include "app/steps/tissue/landmark_mode.h"
+#include "app/steps/tissue/tissue_balls.h"
+#include "app/view/exposure/footage_light.h"
+#include "app/view/still_picture.h"
+#include "simulation/core/error.h"
+#include "simulation/scope/window_lens.h"
+
+namespace arthro::app {
+namespace {
+
+constexpr int kStillSamples = 8;  // texture samples per ray of a picture at rest
+constexpr auto kOverviewPause = std::chrono::milliseconds(200);  // between two, on a slow machine
+
+// A practice shows the scene from outside too, and nothing is edited there.
+bool IsTissueEdited(const EditorState& state) {
+  return state.step == Step::kTissue && !state.practice;
+}
+
+// A click puts a ball, a cut or a region onto the tissue.
+bool HasBrush(const EditorState& state) {
+  return IsTissueEdited(state) && (state.steps.tissue->brush.has_value() ||
+                                   state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone);
+}
+
+void UseBrush(EditorState& state, const std::optional<Overview::TissuePlace>& place) {
+  if (!place)
+    state.message = "There is no tissue at that place. Click on the tissue; Esc ends this.";
+  else if (state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone)
+    UseCutBrush(state, place->tissue, place->x_in_tissue);
+  else
+    AddBall(state, *state.steps.tissue->brush, place->tissue, place->x_in_tissue);
+}
+
+bool Same(const Picture& a, const Picture& b) {
+  return a.view.tip == b.view.tip && a.view.view == b.view.view && a.view.up == b.view.up &&
+         a.field_of_view == b.field_of_view && a.lens == b.lens && a.camera == b.camera &&
+         a.notch == b.notch && a.instrument == b.instrument && a.disturbances == b.disturbances;
+}
+
+// Picture of the tools that the author holds while no session runs.
+Picture AuthorsPicture(const EditorState& state, const simulation::ScopeOptics& optics) {
+  const Scene& scene = state.document().scene;
+  Picture picture = PictureFromPose(state.scope, scene.scope.view_angle, optics.field_of_view);
+  picture.lens = optics.lens;
+  picture.camera = optics.camera;
+  picture.relief = kUsualRelief;
+  const glm::dvec3 portal(scene.portals.incision_spacing, 0, 0);
+  picture.instrument = InstrumentView{
+      portal,
+      state.steps.practice->poke ? state.steps.practice->poke->snapshot().instrument.proxy_in_portal
+                                 : portal + simulation::TipInOwnPortal(state.instrument),
+      state.instrument.roll};
+  return picture;
+}
+
+// Picture of an attempt that is looked back at, from the lens as it was.
+Picture AttemptPicture(const simulation::AttemptFrame& frame,
+                       const simulation::ScopeOptics& optics) {
+  const simulation::ToolFrame& scope = frame.tool[0];
+  const simulation::ToolFrame& instrument = frame.tool[1];
+  const glm::dvec3 axis(scope.axis);
+  const simulation::RodPose pose{std::atan2(-axis.y, std::hypot(axis.x, axis.z)),
+                                 std::atan2(axis.x, axis.z), scope.roll, scope.depth};
+  Picture picture = PictureFromPose(pose, frame.view_angle, optics.field_of_view, frame.head_roll);
+  picture.view.tip = glm::dvec3(frame.lens);
+  picture.lens = optics.lens;
+  picture.camera = optics.camera;
+  picture.relief = kUsualRelief;
+  picture.instrument = InstrumentView{{frame.incision_spacing, 0, 0},
+                                      glm::dvec3(instrument.drawn_tip),
+                                      instrument.roll,
+                                      frame.instrument,
+                                      frame.opening};
+  picture.disturbances.haze = frame.haze;
+  picture.disturbances.fog = frame.fog;
+  return picture;
+}
+
+Picture ShownPicture(const EditorState& state, const simulation::ScopeOptics& optics) {
+  Picture picture;
+  if (const simulation::AttemptFrame* frame = DebriefFrame(state)) {
+    picture = AttemptPicture(*frame, optics);
+  } else if (const auto& practice = state.practice) {
+    const simulation::Snapshot& snapshot = practice->snapshot();
+    picture = PictureOf(snapshot, practice->seen_from(), practice->instrument_kind(), optics,
+                        state.steps.practice->head);
+    picture.instrument->turn = practice->blade_turn();
+    picture.disturbances = state.steps.practice->disturbing.now;
+    // The time advances only for disturbances that move, so that a still picture is not redrawn.
+    if (picture.disturbances.is_moving()) picture.disturbances.time = snapshot.t;
+  } else {
+    picture = AuthorsPicture(state, optics);
+  }
+  picture.samples = 2;
+  return picture;
+}
+
+}  // namespace
+
+void Pictures::TakeBackdrop(const EditorState& state) {
+  const authoring::Document& document = state.document();
+  const DepthCache& cache = state.steps.depth->cache;
+  const bool preview = cache.preview && cache.preview_panorama;
+  const auto& panorama = preview ? cache.preview_panorama : document.panorama;
+  const auto& depth = preview ? cache.preview : document.depth;
+  const std::shared_ptr<const DepthMap> sigma = preview ? nullptr : document.depth_sigma;
+  const DepthMap& relief = OrEmpty(depth);
+  const Backdrop& wanted = document.scene.backdrop;
+  const bool as_filmed = state.steps.portals->shows_as_filmed && !state.practice;
+  const bool same_place = backdrop_ == wanted && as_filmed == as_filmed_;
+  const std::shared_ptr<const ColourImage> reach = ReachPictureOf(state);
+  const bool same_reach = reach == reach_;
+  const bool same_panorama = panorama == panorama_ && panorama;
+  const bool same_depth = depth == depth_ && sigma == sigma_;
+  const bool same_scene = panorama == panorama_ && same_depth && same_place;
+  if (same_scene && same_reach) return;
+  panorama_ = panorama;
+  depth_ = depth;
+  sigma_ = sigma;
+  backdrop_ = wanted;
+  as_filmed_ = as_filmed;
+  reach_ = reach;
+  changed_ = true;
+  if (!panorama) return;
+  const ColourImage& coloured = reach && !preview ? *reach : *panorama;
+  Backdrop shown = WithKnownLight(backdrop_, relief);
+  if (as_filmed) shown.relight = 0;
+  if (preview)
+    shown.projection =
+        Shrunk(shown.projection, static_cast<double>(document.panorama->width) / panorama->width);
+  // The panorama is by far the most to upload; a slider changes only its place or the relief.
+  const bool is_kept = same_scene || (same_panorama && scope_.SetGeometry(shown));
+  if (!is_kept)
+    scope_.SetBackdrop(*panorama, relief, shown, OrEmpty(sigma));
+  else if (!same_depth)
+    scope_.SetDepth(relief, OrEmpty(sigma));
+  if (is_kept && same_reach)
+    overview_.SetRelief(relief, shown);
+  else
+    overview_.SetBackdrop(coloured, relief, shown);
+}
+
+void Pictures::TakeTissues(const EditorState& state) {
+  const authoring::Document& document = state.document();
+  std::vector<Tissue> tissues = document.scene.tissues;
+  if (const auto before = ShownBefore(state))
+    tissues[static_cast<std::size_t>(state.tissue)].pose = *before;
+  std::vector<simulation::TissueLook> looks = simulation::LooksOf(tissues, state.tissue_presets);
+  const auto same_look = [&] {
+    if (surfaces_ != document.surfaces || tissues_.size() != tissues.size() || looks_ != looks)
+      return false;
+    for (std::size_t i = 0; i < tissues.size(); ++i)
+      if (tissues_[i].colour != tissues[i].colour) return false;
+    return true;
+  };
+  if (!same_look()) {
+    scope_.SetTissues(tissues, document.surfaces, looks);
+    overview_.SetTissues(tissues, document.surfaces);
+    shown_cuts_.assign(tissues.size(), nullptr);
+    chosen_ = outlined_ = coloured_ = -1;
+    faults_ = nullptr;
+    surfaces_ = document.surfaces;
+    changed_ = true;
+  } else {
+    for (std::size_t i = 0; i < tissues.size(); ++i)
+      if (!(tissues_[i].pose == tissues[i].pose)) {
+        scope_.SetTissuePose(static_cast<int>(i), tissues[i].pose);
+        overview_.SetTissuePose(static_cast<int>(i), tissues[i].pose);
+        changed_ = true;
+      }
+  }
+  tissues_ = tissues;
+  looks_ = std::move(looks);
+  TakeCuts(document);
+}
+
+// The tissue whose outline is drawn over the scope's picture is not in it.
+void Pictures::HideOutlined(const EditorState& state) {
+  const int wanted = IsOutlined(state) ? state.tissue : -1;
+  if (wanted == outlined_) return;
+  const int shown = std::exchange(outlined_, wanted);
+  if (shown >= 0 && shown < static_cast<int>(shown_cuts_.size())) ShowInScope(shown);
+  if (wanted >= 0) scope_.SetTissueSurface(wanted, {});
+  changed_ = true;
+}
+
+void Pictures::ShowInScope(int tissue) {
+  const auto at = static_cast<std::size_t>(tissue);
+  if (shown_cuts_[at])
+    scope_.SetTissueSurface(tissue, shown_cuts_[at]->surface, shown_cuts_[at]->is_fresh);
+  else
+    scope_.SetTissueSurface(tissue, OrEmpty(surfaces_[at]));
+}
+
+void Pictures::DrawBare(const EditorState& state, int pixels) {
+  const bool is_faded = FadeOf(state) > 0 && outlined_ < 0 && !shown_cuts_.empty();
+  if (!is_faded) return bare_.reset();
+  scope_.SetTissueSurface(state.tissue, {});
+  scope_.Render(picture_, pixels);
+  bare_.emplace(scope_.ReadPixels());
+  ShowInScope(state.tissue);
+}
+
+void Pictures::ShowFaults(const EditorState& state) {
+  const auto found = ShownFaults(state);
+  if (found == faults_) return;
+  faults_ = found;
+  std::vector<SurfaceMark> marks;
+  for (std::size_t i = 0; found && i < found->faults.size(); ++i)
+    marks.push_back(
+        {found->faults[i].edges, found->faults[i].triangles, ColourOf(found->faults[i].kind)});
+  overview_.ShowMarks(state.tissue, marks);
+}
+
+void Pictures::ShowDistances(EditorState& state) {
+  const auto colours = ShownDistances(state);
+  const int wanted = colours ? state.tissue : -1;
+  if (wanted == coloured_ && colours == distances_) return;
+  if (coloured_ >= 0 && wanted != coloured_) {
+    const auto at = static_cast<std::size_t>(coloured_);
+    if (shown_cuts_[at])
+      overview_.SetTissueSurface(coloured_, shown_cuts_[at]->surface, shown_cuts_[at]->is_fresh);
+    else
+      overview_.SetTissueSurface(coloured_, OrEmpty(surfaces_[at]));
+  }
+  // The distances are those of the whole surface.
+  if (wanted >= 0 && wanted != coloured_)
+    overview_.SetTissueSurface(wanted, OrEmpty(surfaces_[static_cast<std::size_t>(wanted)]));
+  if (wanted >= 0) overview_.SetTissueColours(wanted, *colours);
+  coloured_ = wanted;
+  distances_ = colours;
+}
+
+// Tissues as their author's cuts leave them.
+void Pictures::TakeCuts(const authoring::Document& document) {
+  cut_fault_.clear();
+  for (std::size_t i = 0; i < tissues_.size(); ++i) {
+    const auto skin = cut_skins_.SkinOf(document, static_cast<int>(i));
+    if (!cut_skins_.fault().empty()) cut_fault_ = cut_skins_.fault();
+    if (skin == shown_cuts_[i]) continue;
+    const SurfaceMesh& surface = skin ? skin->surface : OrEmpty(document.surfaces[i]);
+    const std::vector<std::uint8_t> fresh = skin ? skin->is_fresh : std::vector<std::uint8_t>{};
+    scope_.SetTissueSurface(static_cast<int>(i), surface, fresh);
+    overview_.SetTissueSurface(static_cast<int>(i), surface, fresh);
+    shown_cuts_[i] = skin;
+    changed_ = true;
+  }
+}
+
+// Tissues that live are shown as they are; when the session ends, as the document has them.
+void Pictures::TakeLiveTissues(const EditorState& state) {
+  const simulation::Practice* live = LiveSession(state);
+  if (live_ != live) {
+    if (!live_tissues_.empty()) surfaces_.clear();  // they are shown anew
+    live_ = live;
+    live_tissues_.Forget();
+    TakeTissues(state);
+  }
+  if (live == nullptr || live->tissues() == nullptr) return;
+  if (live_tissues_.Show(*live->tissues(), state.document().scene.tissues, scope_, &overview_))
+    changed_ = true;
+}
+
+void Pictures::Take(const EditorState& state) {
+  TakeBackdrop(state);
+  TakeTissues(state);
+  HideOutlined(state);
+  TakeLiveTissues(state);
+}
+
+const simulation::ScopeOptics& Pictures::TakeOptics(const authoring::Document& document) {
+  const ScopeSpec& scope = document.scene.scope;
+  if (document.lens == optics_.lens && scope.field_of_view == optics_.field_of_view)
+    return optics_.fitted;
+  optics_ = {document.lens, scope.field_of_view, {scope.field_of_view, {}, {}}, {}};
+  try {
+    optics_.fitted = simulation::OpticsOf(scope, document.lens);
+  } catch (const Error& error) {
+    optics_.fault = std::string(error.what()) + "; an equisolid lens is drawn";
+  }
+  return optics_.fitted;
+}
+
+bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
+  Take(state);
+  Picture picture = ShownPicture(state, TakeOptics(state.document()));
+  if (state.practice && picture.instrument)
+    picture.instrument = live_tissues_.Settled(*picture.instrument);
+  const bool is_faded = FadeOf(state) > 0 && outlined_ < 0;
+  // The fluid flows while something moves: villi sway then, and a picture at rest stays as it is.
+  const bool flows = state.practice && !picture.disturbances.is_moving();
+  if (flows) picture.disturbances.time = flow_.time;
+  const bool has_changed =
+      changed_ || !Same(picture, picture_) || full_size_ != size || is_faded != bare_.has_value();
+  if (flows) picture.disturbances.time = flow_.Advance(state.practice->snapshot().t, has_changed);
+  picture_ = picture;
+  full_size_ = size;
+  has_picture_ = panorama_ != nullptr;
+  is_timed_ = false;
+  if (!has_picture_) return false;
+  const int rays = rest_.RaysDue(has_changed, seconds);
+  if (rays == 0) return !rest_.is_final();
+
+  // A machine that is slow at full size draws coarser while things move, and full when they rest.
+  const bool is_moving = rays == 1 && !steady_;
+  double scale = is_moving ? scale_.value() : 1.0;
+  picture_.features = is_moving ? scale_.features() : CameraFeatures::kOcclusion;
+  if (rays == 1 && state.settings.moving_picture != MovingPicture::kAutomatic)
+    picture_.features = std::min(picture_.features, CameraFeatures::kEdges);
+  if (rays == 1 && state.settings.moving_picture == MovingPicture::kSmall)
+    scale = std::min(scale, kSmallScale);
+  picture_.rays = rays;
+  if (rays == 2) picture_.samples = kStillSamples;
+  const int pixels = static_cast<int>(std::lround(scale * size));
+  DrawBare(state, pixels);
+  const bool is_measured = rays == 1 && state.steps.practice->budget->is_shown;
+  scope_.SetTimed(is_measured);
+  scope_.Render(picture_, pixels);
+  cost_.reset();
+  if (is_measured) cost_ = FrameCost{scope_.cost()};
+  is_timed_ = is_moving;
+  drawn_size_ = pixels;
+  ++drawn_count_;
+  changed_ = false;
+  return !rest_.is_final();
+}
+
+void Pictures::NoteFrame(double seconds) {
+  if (is_timed_) scale_.Note(seconds);
+  is_timed_ = false;
+}
+
+void Pictures::Record(LiveFilm& film, double t) {
+  if (has_picture_ && film.IsDue(t)) film.Offer(t, scope_.ReadPixels());
+}
+
+bool Pictures::DrawOverview(EditorState& state, int width, int height) {
+  Take(state);
+  has_overview_ = panorama_ != nullptr;
+  if (!has_overview_) return false;
+  if (document_number_ != state.document_number || overview_fits_ != state.overview_fits) {
+    document_number_ = state.document_number;
+    overview_fits_ = state.overview_fits;
+    overview_.ResetCamera();
+  }
+  const Picture picture = ShownPicture(state, TakeOptics(state.document()));
+  if (!Same(picture, overview_tools_)) {
+    overview_tools_ = picture;
+    overview_.SetIncisionSpacing(state.document().scene.portals.incision_spacing);
+    overview_.SetTools({picture.view, picture.field_of_view, picture.instrument});
+  }
+  // The box is there while tissue is worked on.
+  const bool is_clicked = HasBrush(state) || PlacesLandmarks(state) || LaysOnRelief(state);
+  const int chosen = IsTissueEdited(state) && !is_clicked ? state.tissue : -1;
+  if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
+  ShowPlaces(state);
+  ShowFaults(state);
+  ShowDistances(state);
+  overview_.ShowArms(state.steps.tissue->placing.axes == authoring::NudgeAxes::kTissue
+                         ? Overview::Arms::kOwn
+                         : Overview::Arms::kPortal);
+  // Draws the scope's picture before the overview on a slow machine.
+  const auto now = std::chrono::steady_clock::now();
+  if (!steady_ && scale_.is_slow() && !overview_held_ && now - overview_drawn_ < kOverviewPause)
+    return true;
+  if (overview_.Render(width, height)) overview_drawn_ = now;
+  if (cost_) {
+    scope_.Finish();
+    cost_->overview = std::chrono::duration<double>(std::chrono::steady_clock::now() - now).count();
+  }
+  return false;
+}
+
+// The balls that the page at hand is about.
+void Pictures::ShowPlaces(const EditorState& state) {
+  const auto& tissues = state.document().scene.tissues;
+  const bool has_tissue =
+      IsTissueEdited(state) && state.tissue >= 0 && state.tissue < static_cast<int>(tissues.size());
+  const auto kind = BallKindOf(state.steps.tissue->page);
+  if (has_tissue && kind)
+    return overview_.ShowBalls(state.tissue,
+                               BallsOf(tissues[static_cast<std::size_t>(state.tissue)], *kind),
+                               state.steps.tissue->ball);
+  if (!has_tissue || state.steps.tissue->page != TissuePage::kCut)
+    return overview_.ShowBalls(-1, {}, -1);
+  const Tissue& tissue = tissues[static_cast<std::size_t>(state.tissue)];
+  std::vector<Ball> balls;
+  for (const Region& region : tissue.regions) balls.push_back(region.ball);
+  int chosen = state.steps.tissue->region;
+  if (const CutBrush& brush = state.steps.tissue->cut_brush;
+      brush.start && brush.start_tissue == state.tissue) {
+    constexpr double kMark = 6e-4;  // m, of the first point of a tear
+    chosen = static_cast<int>(balls.size());
+    balls.push_back({*brush.start, kMark / tissue.pose.scale});
+  }
+  overview_.ShowBalls(state.tissue, balls, chosen);
+}
+
+void Pictures::ClickScope(EditorState& state, const glm::dvec2& place) {
+  if ((!HasBrush(state) && !TakesTarget(state)) || !has_picture_) return;
+  std::optional<Overview::TissuePlace> hit;
+  if (glm::length(place) <= 1.0) {
+    const glm::dvec3 ray =
+        simulation::RayThrough(TakeOptics(state.document()), picture_.view, place);
+    hit =
+        overview_.PickAlong(picture_.view.tip, 4.0 * state.document().scene.backdrop.radius * ray);
+    if (TakesTarget(state))
+      return PlaceTarget(
+          state, {picture_.view.tip, ray},
+          hit ? std::optional(TissueHit{hit->tissue, hit->x_in_tissue}) : std::nullopt);
+  }
+  if (!HasBrush(state)) return;
+  UseBrush(state, hit);
+}
+
+void Pictures::HandleOverview(EditorState& state, const OverviewInput& input, double scale) {
+  if (!has_overview_) return;
+  overview_.handle_scale = scale;
+  overview_.on_pose = [&state](int index, const Pose& pose, bool finished) {
+    const auto& tissues = state.document().scene.tissues;
+    if (index < 0 || index >= static_cast<int>(tissues.size())) return;
+    state.dragging = true;
+    PlaceTissue(state, index, pose, "Place");
+    if (finished) EndDrag(state);
+  };
+  overview_held_ = input.owned || input.wheel != 0;
+  using Kind = PointerEvent::Kind;
+  constexpr PointerEvent::Button kButtons[] = {
+      PointerEvent::Button::kLeft, PointerEvent::Button::kRight, PointerEvent::Button::kMiddle};
+  PointerEvent event;
+  event.x = input.pointer.x, event.y = input.pointer.y;
+  event.shift = input.shift, event.control = input.ctrl;
+  if ((input.hovered || input.owned) && input.pointer != pointer_) {
+    event.kind = Kind::kMove;
+    overview_.Handle(event);
+    pointer_ = input.pointer;
+  }
+  for (int button = 0; button < 3; ++button) {
+    event.button = kButtons[button];
+    if (input.pressed[button]) {
+      // With Shift the view turns, as it does elsewhere.
+      if (button == 0 && LaysOnRelief(state) && !input.shift) {
+        is_laying_ = true;
+        continue;
+      }
+      if (button == 0 && PaintsDepth(state) && !input.shift) {
+        is_painting_ = true;
+        continue;
+      }
+      if (button == 0 && HasBrush(state)) {
+        const auto place = overview_.PickTissue(event.x, event.y);
+        UseBrush(state, place);
+        if (place) continue;  // a drag beside the tissue turns the view
+      }
+      event.kind = Kind::kPress;
+      overview_.Handle(event);
+    }
+    if (input.released[button]) {
+      event.kind = Kind::kRelease;
+      overview_.Handle(event);
+    }
+  }
+  if (is_laying_) {
+    const Overview::Line line = overview_.LineThrough(event.x, event.y);
+    LayTissue(state, {line.eye, line.direction, line.px_per_radian});
+    if (!input.owned) {
+      EndDrag(state);
+      is_laying_ = false;
+    }
+  }
+  if (input.hovered || is_painting_) {
+    const Overview::Line line = overview_.LineThrough(event.x, event.y);
+    PointAtRelief(state, {line.eye, line.direction, line.px_per_radian}, is_painting_);
+  }
+  if (is_painting_ && !input.owned) {
+    EndStroke(state);
+    is_painting_ = false;
+  }
+  if (input.clicked && PlacesLandmarks(state)) {
+    const auto place = overview_.PickTissue(event.x, event.y);
+    // A model point that waits for its partner is followed by a click on the relief.
+    if (place && !state.steps.tissue->landmarks.model) {
+      TakeModelPoint(state, place->tissue, place->x_in_tissue);
+    } else {
+      const Overview::Line line = overview_.LineThrough(event.x, event.y);
+      TakeScenePoint(state, {line.eye, line.direction, line.px_per_radian});
+    }
+  }
+  if (input.wheel != 0) {
+    event.kind = Kind::kWheel;
+    event.wheel = input.wheel;
+    overview_.Handle(event);
+  }
+  overview_.on_pose = {};
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,69 @@
+// Commands that cut the chosen tissue and name its regions.
+#include "app/steps/tissue/cut/tissue_cut.h"
+#include "app/steps/tissue/tissue_step.h"
+
+namespace arthro::app {
+namespace {
+
+using State = EditorState;
+
+constexpr Command kCommands[] = {
+    {"cut-tear",
+     "Tear…",
+     "Click points along the tear on the tissue in either view. Press again to end it.",
+     "Edit",
+     {},
+     {},
+     IsTissueChosen,
+     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kTear); }},
+    {"cut-bite",
+     "Bite…",
+     "Click on the tissue in either view. A round bite is removed there.",
+     "Edit",
+     {},
+     {},
+     IsTissueChosen,
+     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kBite); }},
+    {"remove-cut",
+     "Remove this cut",
+     "Make the tissue whole where the chosen cut is.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return IsTissueChosen(state) && ChosenCut(state) != nullptr; },
+     RemoveChosenCut},
+    {"remove-all-cuts",
+     "Remove all cuts",
+     "Make the tissue whole.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) {
+       return IsTissueChosen(state) &&
+              !state.document().scene.tissues[static_cast<std::size_t>(state.tissue)].cuts.empty();
+     },
+     RemoveAllCuts},
+    {"cut-region",
+     "Region…",
+     "Click on the tissue in either view. The volume that a trainee removes in a ball around it "
+     "is reported by name.",
+     "Edit",
+     {},
+     {},
+     IsTissueChosen,
+     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kRegion); }},
+    {"remove-region",
+     "Remove this region",
+     "Remove the chosen region. The volume taken there counts for the rest of the tissue.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return IsTissueChosen(state) && ChosenRegion(state) != nullptr; },
+     RemoveChosenRegion},
+};
+
+}  // namespace
+
+std::span<const Command> CutCommands() { return kCommands; }
+
+}  // namespace arthro::app
