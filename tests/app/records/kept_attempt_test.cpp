@@ -1,5 +1,5 @@
 // Attempts from begin to record: log first, results after, whatever the database does meanwhile.
-#include "app/records/attempts/kept_attempt.h"
+#include "app/records/keeping/kept_attempt.h"
 
 #include <fstream>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/records/attempts/kept_attempt.h"
+#include "app/records/keeping/kept_attempt.h"
 #include "simulation/scene/scene.h"
 
 namespace arthro::app {

@@ -1,4 +1,4 @@
-#include "app/records/attempts/kept_attempt.h"
+#include "app/records/keeping/kept_attempt.h"
 
 #include <utility>
 
