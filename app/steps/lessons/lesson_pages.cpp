@@ -54,7 +54,7 @@ void Briefing(Ui& ui, EditorState& state, const Exercise& exercise) {
   const std::string& trainee = state.steps.lessons->records->trainee;
   Text(ui, trainee.empty() ? "No trainee is chosen: the attempt is not kept."
                            : "Kept for trainee " + trainee + ".");
-  Checkbox(ui, "Test", state.steps.lessons->is_test,
+  Checkbox(ui, "Test, for the gate", state.steps.lessons->is_test,
            "A test counts for the gate of the exercise; practice does not.");
   Gap(ui);
   CommandButton(ui, state, "begin-exercise", {ui.Px(160), ui.Px(44)});

@@ -1,5 +1,7 @@
 // The trainee's page: every exercise of the scene with the best result, the tries and its gate, and
 // the earlier attempts at the chosen one.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -98,12 +100,14 @@ void EarlierAttempts(Ui& ui, EditorState& state, const StartBoard& board) {
   if (chosen == nullptr) return QuietText(ui, "Choose an exercise to see the attempts at it.");
   Text(ui, chosen->title);
   if (board.attempts.empty()) return QuietText(ui, "No attempt yet.");
-  for (const AttemptRecord& attempt : board.attempts)
+  for (const AttemptRecord& attempt : board.attempts) {
+    std::string when = attempt.started.substr(0, 16);  // "2026-11-24T02:10"
+    std::replace(when.begin(), when.end(), 'T', ' ');
     ListEntry(ui,
-              fmt::format("{}  {}  {}##{}", attempt.started.substr(0, 16),
-                          simulation::ToString(attempt.outcome),
+              fmt::format("{}  {}  {}##{}", when, simulation::ToString(attempt.outcome),
                           attempt.duration ? ValueWords(attempt.duration, "s") : "", attempt.id),
               false);
+  }
 }
 
 }  // namespace
