@@ -15,11 +15,15 @@ const char* Better(const Metric& metric) { return metric.is_more_better ? "more"
 
 }  // namespace
 
+std::vector<std::string> SurfaceNames(const Scene& scene) {
+  std::vector<std::string> names;
+  for (int i = 0; i <= static_cast<int>(scene.tissues.size()); ++i)
+    names.push_back(ContactName(i, scene));
+  return names;
+}
+
 Assessment AssessFrames(std::span<const AttemptFrame> frames, const Scene& scene,
                         const MetricLimits& limits) {
-  std::vector<std::string> surfaces;
-  for (int i = 0; i <= static_cast<int>(scene.tissues.size()); ++i)
-    surfaces.push_back(ContactName(i, scene));
   Assessment assessment;
   assessment.duration = kFrameTime * static_cast<double>(frames.size());
   assessment.frames = frames.size();
@@ -27,7 +31,7 @@ Assessment AssessFrames(std::span<const AttemptFrame> frames, const Scene& scene
       static_cast<std::size_t>(std::count_if(frames.begin(), frames.end(), [](const auto& frame) {
         return !frame.tool[0].is_valid && !frame.tool[1].is_valid;
       }));
-  assessment.values = MeasureAttempt(frames, surfaces, limits);
+  assessment.values = MeasureAttempt(frames, SurfaceNames(scene), limits);
   return assessment;
 }
 
