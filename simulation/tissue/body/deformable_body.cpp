@@ -13,6 +13,7 @@
 #include "simulation/scene/mesh/held_nodes.h"
 #include "simulation/tissue/body/deformable_body_impl.h"
 #include "simulation/tissue/body/tool_cut.h"
+#include "simulation/tissue/cut/cutters.h"
 
 namespace arthro::simulation {
 namespace {
@@ -92,6 +93,7 @@ DeformableBody::Impl::Impl(BodySpec given, const BodyOptions& chosen)
   ResizeBuffers();
   taken.by_region.assign(spec.regions.empty() ? 0 : spec.regions.size() + 1, 0.0);
   if (!spec.cuts.empty()) MakeAuthorsCuts();
+  if (!spec.regions.empty()) taken.volume_by_region = VolumeByRegion(field, spec.regions);
 }
 
 // Resizes everything that has one entry per node of the shape or per vertex of the skin.

@@ -64,6 +64,8 @@ struct CutReport {
   // m³ per region of the spec, then outside all regions; the sum is `removed`. Empty without
   // regions.
   std::vector<double> by_region;
+  // m³ in the same places before any tool cut, after the author's cuts. Empty without regions.
+  std::vector<double> volume_by_region;
 };
 
 // Skin of a body at rest, whole or after a cut.

@@ -41,6 +41,8 @@ ImplicitBody::ImplicitBody(ImplicitSpec spec, const BodyOptions& options)
       options_(options),
       whole_(Sampled(spec_, options.cut_spacing)),
       now_(whole_) {
+  if (!spec_.regions.empty())
+    report_.volume_by_region = VolumeByRegion(whole_.field(), spec_.regions);
   TakeSkin(kEmptyBox);
 }
 
@@ -129,7 +131,9 @@ void ImplicitBody::TakeSkin(const Box3& changed) {
 void ImplicitBody::Reset() {
   if (report_.cuts == 0 && !is_lost_) return;
   now_ = whole_;
+  std::vector<double> volumes = std::move(report_.volume_by_region);
   report_ = CutReport{};
+  report_.volume_by_region = std::move(volumes);
   shaver_ = Shaver{};
   trigger_ = CutTrigger{};
   normals_.clear();

@@ -175,6 +175,31 @@ FieldEdit Shave(SolidField& field, const Box3& rest_box, const Deformation& defo
   return edit;
 }
 
+namespace {
+
+// Index of the first region that holds the middle of a cell; the number of regions: none does.
+std::size_t RegionOfCell(const FieldGrid& grid, int i, int j, int k,
+                         std::span<const Region> regions) {
+  const glm::dvec3 middle = grid.Place(i, j, k) + 0.5 * grid.spacing;
+  const auto region = std::find_if(regions.begin(), regions.end(), [&](const Region& r) {
+    return glm::length(middle - r.ball.centre) <= r.ball.radius;
+  });
+  return static_cast<std::size_t>(region - regions.begin());
+}
+
+}  // namespace
+
+std::vector<double> VolumeByRegion(const SolidField& field, std::span<const Region> regions) {
+  const FieldGrid& grid = field.grid();
+  std::vector<double> volumes(regions.size() + 1, 0.0);
+  for (int k = 0; k + 1 < grid.count[2]; ++k)
+    for (int j = 0; j + 1 < grid.count[1]; ++j)
+      for (int i = 0; i + 1 < grid.count[0]; ++i)
+        if (const double volume = field.CellVolume(i, j, k); volume > 0)
+          volumes[RegionOfCell(grid, i, j, k, regions)] += volume;
+  return volumes;
+}
+
 std::vector<RegionVolume> RemovedByRegion(const SolidField& original, const SolidField& now,
                                           std::span<const Region> regions) {
   const FieldGrid &grid = original.grid(), &other = now.grid();
@@ -199,11 +224,7 @@ std::vector<RegionVolume> RemovedByRegion(const SolidField& original, const Soli
       for (int i = 0; i + 1 < grid.count[0]; ++i) {
         const double removed = original.CellVolume(i, j, k) - now.CellVolume(i, j, k);
         if (removed == 0.0) continue;
-        const glm::dvec3 middle = grid.Place(i, j, k) + 0.5 * grid.spacing;
-        const auto region = std::find_if(regions.begin(), regions.end(), [&](const Region& r) {
-          return glm::length(middle - r.ball.centre) <= r.ball.radius;
-        });
-        volumes[static_cast<std::size_t>(region - regions.begin())].removed += removed;
+        volumes[RegionOfCell(grid, i, j, k, regions)].removed += removed;
       }
     }
   return volumes;

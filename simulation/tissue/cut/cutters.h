@@ -70,6 +70,9 @@ struct RegionVolume {
 // Throws Error(kBadArgument) unless both fields have the same grid.
 std::vector<RegionVolume> RemovedByRegion(const SolidField& original, const SolidField& now,
                                           std::span<const Region> regions);
+// Returns the solid volume per region in m³, and that elsewhere as the last entry, by the same
+// rule.
+std::vector<double> VolumeByRegion(const SolidField& field, std::span<const Region> regions);
 
 // Largest volume of a loose fragment that is washed away: the largest that passes the window of a
 // 4.5 mm shaver.

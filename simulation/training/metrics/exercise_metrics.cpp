@@ -167,6 +167,14 @@ void MeasureTissue(std::span<const AttemptFrame> frames, const StepEngine& engin
   for (const AttemptFrame& frame : frames) outside += static_cast<double>(frame.taken_outside);
   values.Give("taken_share", "instrument", share, "the exercise has no regions to remove");
   values.Give("taken_outside", "instrument", outside);
+  const auto length = [](float value) {
+    return value < 0 ? std::nullopt : std::optional<double>(value);
+  };
+  constexpr std::string_view kUncut = "no tissue with a region to remove was cut";
+  values.Give("rim_min", "instrument", frames.empty() ? std::nullopt : length(frames.back().rim),
+              kUncut);
+  values.Give("contour_rms", "instrument",
+              frames.empty() ? std::nullopt : length(frames.back().contour), kUncut);
   int bites = 0, empty = 0;
   for (const AttemptEvent& event : engine.events())
     if (event.kind == EventKind::kBite) ++(event.value > 0 ? bites : empty);
@@ -204,6 +212,8 @@ std::vector<MetricValue> MeasureExercise(std::span<const AttemptFrame> frames,
   values.Give("track_error", "both", sums.track_error.rms(), kNoStep);
   values.Give("line_error", "both", sums.line_error.rms(), kNoStep);
   values.Give("measure_error", "instrument", sums.measure_error.mean(), kNoStep);
+  values.Give("band_share", "instrument", Share(sums.in_band, sums.pressed),
+              "no target to press was touched");
   values.Give("marked_area", "both", sums.marked_area);
   values.Give("drops", "instrument", CountOf(engine, EventKind::kDrop));
   values.Give("zone_entries", "both", CountOf(engine, EventKind::kZoneIn));

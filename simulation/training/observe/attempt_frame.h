@@ -43,8 +43,11 @@ struct AttemptFrame {
   float haze = 0, fog = 0;  // strengths of the disturbances that hide targets
   float taken = 0;          // m³ of tissue removed in the frame
   float taken_outside = 0;  // m³ of it that no region of a target holds
-  glm::vec3 lens{0.0F};     // from which the picture was drawn
-  Observation sight;        // sight of the exercise's targets
+  // m, from the faces that were cut to the wall that holds the tissue, and their root mean square
+  // distance from the spheres of the regions; −1: nothing was cut.
+  float rim = -1, contour = -1;
+  glm::vec3 lens{0.0F};  // from which the picture was drawn
+  Observation sight;     // sight of the exercise's targets
   friend bool operator==(const AttemptFrame&, const AttemptFrame&) = default;
 };
 

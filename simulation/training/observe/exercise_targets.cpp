@@ -16,14 +16,20 @@ int TissueOf(const Scene& scene, const std::string& name) {
   return found == tissues.end() ? -1 : static_cast<int>(found - tissues.begin());
 }
 
-std::optional<TargetPlace> PlaceOfRegion(const LoadedScene& loaded, int tissue,
-                                         const ExerciseTarget& target) {
+std::optional<TargetPlace> PlaceOfRegions(const LoadedScene& loaded, int tissue,
+                                          const ExerciseTarget& target) {
   if (tissue < 0) return std::nullopt;
   const Tissue& owner = loaded.scene.tissues[static_cast<std::size_t>(tissue)];
-  for (const Region& region : owner.regions)
-    if (region.name == target.regions.front())
-      return TargetInBall(owner.pose * region.ball.centre, region.ball.radius);
-  return std::nullopt;
+  std::optional<TargetPlace> place;
+  for (const std::string& name : target.regions) {
+    const auto region = std::find_if(owner.regions.begin(), owner.regions.end(),
+                                     [&](const Region& each) { return each.name == name; });
+    if (region == owner.regions.end()) return std::nullopt;
+    if (!place) place = TargetInBall(owner.pose * region->ball.centre, region->ball.radius);
+    place->regions.push_back(static_cast<int>(region - owner.regions.begin()));
+  }
+  if (place) place->region_tissue = tissue;
+  return place;
 }
 
 std::optional<TargetPlace> PlaceOf(const LoadedScene& loaded, const ExerciseTarget& target) {
@@ -37,7 +43,7 @@ std::optional<TargetPlace> PlaceOf(const LoadedScene& loaded, const ExerciseTarg
     case TargetKind::kBall:
       return TargetInBall(*target.ball, target.radius);
     case TargetKind::kRegions:
-      return target.regions.empty() ? std::nullopt : PlaceOfRegion(loaded, tissue, target);
+      return PlaceOfRegions(loaded, tissue, target);
   }
   return std::nullopt;
 }
@@ -54,7 +60,12 @@ std::vector<TargetPlace> PlacesOfTargets(const LoadedScene& loaded, const Exerci
                               "place it again",
                               target.id, exercise.id));
     places.push_back(*place);
+    places.back().is_loose = target.is_loose;
   }
+  for (const ExerciseStep& step : exercise.steps)
+    if (const auto* transfer = std::get_if<TransferStep>(&step))
+      for (std::size_t i = 0; i < places.size(); ++i)
+        if (exercise.targets[i].id == transfer->to) places[i].keeps_bodies = true;
   return places;
 }
 

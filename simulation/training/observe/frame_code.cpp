@@ -48,11 +48,15 @@ void VisitFrame(Frame& frame, V&& v) {
   }
 }
 
+constexpr std::size_t kOutside = kMostTargets, kRim = kMostTargets + 1, kContour = kMostTargets + 2;
+
 TakenWords TakenOf(const AttemptFrame& frame) {
   TakenWords taken{};
   for (std::size_t i = 0; i < frame.sight.target.size(); ++i)
     taken[i] = frame.sight.target[i].taken_share;
-  taken.back() = frame.taken_outside;
+  taken[kOutside] = frame.taken_outside;
+  taken[kRim] = frame.rim;
+  taken[kContour] = frame.contour;
   return taken;
 }
 
@@ -113,6 +117,8 @@ void FromDifferences(FrameWords& words) {
 
 }  // namespace
 
+TakenWords NothingTaken() { return TakenOf(AttemptFrame()); }
+
 void FrameEncoder::Encode(const AttemptFrame& frame, std::string& bytes) {
   FrameWords words{};
   VisitFrame(frame, Packer{words});
@@ -123,7 +129,7 @@ void FrameEncoder::Encode(const AttemptFrame& frame, std::string& bytes) {
   ToDifferences(words);
   const bool is_whole = since_whole_ == 0;
   since_whole_ = (since_whole_ + 1) % kWholeEvery;
-  if (is_whole) before_ = {}, taken_ = {};
+  if (is_whole) before_ = {}, taken_ = NothingTaken();
   const TakenWords taken = TakenOf(frame);
   const bool has_taken = taken != taken_;
   bytes.assign(1 + kMask, '\0');
@@ -143,7 +149,7 @@ bool FrameDecoder::Decode(std::string_view bytes, AttemptFrame& frame) {
   if (bytes.size() < 1 + kMask) return false;
   const auto head = static_cast<unsigned char>(bytes[0]);
   if (head > (kWhole | kHasTaken)) return false;
-  if ((head & kWhole) != 0) before_ = {}, taken_ = {};
+  if ((head & kWhole) != 0) before_ = {}, taken_ = NothingTaken();
   std::string_view values = bytes.substr(1 + kMask);
   if ((head & kHasTaken) != 0) {
     if (values.size() < sizeof taken_) return false;
@@ -162,7 +168,9 @@ bool FrameDecoder::Decode(std::string_view bytes, AttemptFrame& frame) {
   VisitFrame(frame, unpacker);
   for (std::size_t i = 0; i < frame.sight.target.size(); ++i)
     frame.sight.target[i].taken_share = taken_[i];
-  frame.taken_outside = taken_.back();
+  frame.taken_outside = taken_[kOutside];
+  frame.rim = taken_[kRim];
+  frame.contour = taken_[kContour];
   for (const float taken : taken_)
     if (std::isnan(taken)) return false;
   for (std::size_t i = 0; i < frame.sight.target.size(); ++i) {

@@ -14,11 +14,14 @@ namespace arthro::simulation {
 
 // Words of a frame with kMostTargets targets.
 inline constexpr std::size_t kFrameWords = 2 * 16 + 14 + 6 * kMostTargets + 2;
-// Shares of the targets' regions that were taken, and the volume taken elsewhere; behind the others
-// in frames in which they changed.
-inline constexpr std::size_t kTakenWords = kMostTargets + 1;
+// Shares of the targets' regions that were taken, the volume taken elsewhere, rim and contour;
+// behind the others in frames in which they changed.
+inline constexpr std::size_t kTakenWords = kMostTargets + 3;
 using FrameWords = std::array<std::uint32_t, kFrameWords>;
 using TakenWords = std::array<float, kTakenWords>;
+
+// Those of a frame before anything was taken.
+TakenWords NothingTaken();
 
 class FrameEncoder {
  public:
@@ -27,7 +30,7 @@ class FrameEncoder {
 
  private:
   FrameWords before_{};
-  TakenWords taken_{};
+  TakenWords taken_ = NothingTaken();
   int since_whole_ = 0;
 };
 
@@ -38,7 +41,7 @@ class FrameDecoder {
 
  private:
   FrameWords before_{};
-  TakenWords taken_{};
+  TakenWords taken_ = NothingTaken();
 };
 
 }  // namespace arthro::simulation

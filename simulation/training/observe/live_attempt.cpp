@@ -12,8 +12,10 @@ std::optional<LiveFrames::Loose> LooseOf(const LoadedScene& loaded,
                                          const DepthField& relief) {
   std::vector<int> numbers;
   std::vector<LooseBody> bodies;
+  std::vector<Ball> goals;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const TargetPlace& target = targets[i];
+    if (target.keeps_bodies) goals.push_back({target.point, target.radius});
     if (!target.is_loose) continue;
     glm::dvec3 place = target.point, normal = target.normal;
     if (target.tissue >= 0) {
@@ -25,7 +27,8 @@ std::optional<LiveFrames::Loose> LooseOf(const LoadedScene& loaded,
     bodies.push_back({place + target.radius * normal, target.radius, false, true});
   }
   if (bodies.empty()) return {};
-  return LiveFrames::Loose{std::move(numbers), LooseBodies(loaded, std::move(bodies), relief)};
+  return LiveFrames::Loose{std::move(numbers),
+                           LooseBodies(loaded, std::move(bodies), relief, std::move(goals))};
 }
 
 }  // namespace
@@ -33,6 +36,7 @@ std::optional<LiveFrames::Loose> LooseOf(const LoadedScene& loaded,
 LiveAttempt::LiveAttempt(const LoadedScene& loaded, std::vector<TargetPlace> targets,
                          const DepthField& relief, const ScopeEye& eye)
     : frames_(LooseOf(loaded, targets, relief)),
+      taken_(loaded, targets),
       observer_(loaded, std::move(targets), relief, eye) {}
 
 void LiveFrames::AfterTick(const Snapshot& snapshot, double dt) noexcept {
@@ -69,15 +73,11 @@ std::span<const AttemptFrame> LiveAttempt::Update(const WorldPicture* world) {
   ended_.clear();
   for (AttemptFrame frame; frames_.Take(frame);) ended_.push_back(frame);
   if (ended_.empty()) return {};
-  double removed = 0;
-  if (world != nullptr) {
-    observer_.Follow(*world);
-    for (const BodyPicture& body : world->bodies) removed += body.cut.removed;
+  if (world != nullptr) observer_.Follow(*world);
+  for (AttemptFrame& frame : ended_) {
+    observer_.Observe(frame);
+    taken_.Measure(world, frame);
   }
-  // A reset of the tissue lowers the sum; nothing was put back by the trainee.
-  ended_.front().taken = static_cast<float>(std::max(0.0, removed - removed_));
-  removed_ = removed;
-  for (AttemptFrame& frame : ended_) observer_.Observe(frame);
   return ended_;
 }
 

@@ -12,6 +12,7 @@
 #include "simulation/practice/servo_loop.h"
 #include "simulation/training/observe/loose_bodies.h"
 #include "simulation/training/observe/observer.h"
+#include "simulation/training/observe/taken_tissue.h"
 #include "simulation/training/observe/tick_average.h"
 
 namespace arthro::simulation {
@@ -60,9 +61,9 @@ class LiveAttempt {
 
  private:
   LiveFrames frames_;
+  TakenTissue taken_;
   Observer observer_;
   std::vector<AttemptFrame> ended_;
-  double removed_ = 0;  // m³ at the last frame
 };
 
 }  // namespace arthro::simulation

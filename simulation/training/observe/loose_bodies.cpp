@@ -18,8 +18,8 @@ constexpr double kRests = 0.02;
 }  // namespace
 
 LooseBodies::LooseBodies(const LoadedScene& loaded, std::vector<LooseBody> bodies,
-                         const DepthField& relief)
-    : bodies_(std::move(bodies)), relief_(relief) {
+                         const DepthField& relief, std::vector<Ball> goals)
+    : bodies_(std::move(bodies)), goals_(std::move(goals)), relief_(relief) {
   const std::size_t count = std::min(loaded.surfaces.size(), loaded.scene.tissues.size());
   for (std::size_t i = 0; i < count; ++i)
     tissues_.emplace_back(OrEmpty(loaded.surfaces[i]), loaded.scene.tissues[i].pose);
@@ -43,7 +43,11 @@ void LooseBodies::Tick(const Snapshot& snapshot, double dt) noexcept {
   const Rigid3 portal_from_tool =
       PortalFromTool({snapshot.incision_spacing, 0.0, 0.0}, tool.proxy_in_portal, tool.pose.roll);
   if (held_ && !(is_grasper && tool.opening < kGraspOpening)) {
-    bodies_[*held_].is_held = false;
+    LooseBody& body = bodies_[*held_];
+    body.is_held = false;
+    body.is_at_rest = std::ranges::any_of(goals_, [&](const Ball& goal) {
+      return glm::distance(body.place, goal.centre) <= goal.radius;
+    });
     held_.reset();
   }
   if (closes && !held_) {

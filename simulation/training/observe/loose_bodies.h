@@ -1,7 +1,8 @@
 // Loose bodies of an exercise: balls that the grasper carries. Jaws that close to less than
 // kGraspOpening with their tip within kGraspReach of a ball hold it. When they open it sinks along
 // gravity, +y, slides along relief and tissues, and comes to rest. It is kinematic: it presses
-// nothing, and tissues hold it as they are at rest. Portal frame, m, s.
+// nothing, and tissues hold it as they are at rest. A body that is let go at its goal has left the
+// joint and stays there. Portal frame, m, s.
 #pragma once
 
 #include <array>
@@ -30,8 +31,9 @@ struct LooseBody {
 
 class LooseBodies {
  public:
-  // `relief` outlives this.
-  LooseBodies(const LoadedScene& loaded, std::vector<LooseBody> bodies, const DepthField& relief);
+  // `relief` outlives this. `goals`: balls of the portal frame in which bodies stay.
+  LooseBodies(const LoadedScene& loaded, std::vector<LooseBody> bodies, const DepthField& relief,
+              std::vector<Ball> goals = {});
 
   // Advances by a tick of length dt, in which the hands were as in `snapshot`. Allocates nothing.
   void Tick(const Snapshot& snapshot, double dt) noexcept;
@@ -42,6 +44,7 @@ class LooseBodies {
   void Sink(LooseBody& body, double dt) const noexcept;
 
   std::vector<LooseBody> bodies_;
+  std::vector<Ball> goals_;
   const DepthField& relief_;
   std::vector<SurfaceBvh> tissues_;
   double opening_ = 1;               // opening in the tick before

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -17,7 +18,11 @@ struct TargetPlace {
   glm::dvec3 point{0.0};   // on the skin at rest, on the relief, or the middle of a ball
   glm::dvec3 normal{0.0};  // unit, out of the surface; 0 for a ball, which has none
   double radius = 0;
-  bool is_loose = false;  // a loose body of this radius lies here at the begin (loose_bodies.h)
+  bool is_loose = false;      // a loose body of this radius lies here at the begin (loose_bodies.h)
+  bool keeps_bodies = false;  // loose bodies that are let go in this ball stay where they are
+  // Regions to remove: the tissue in the scene that has them, and their numbers in it.
+  int region_tissue = -1;
+  std::vector<int> regions = {};
   friend bool operator==(const TargetPlace&, const TargetPlace&) = default;
 };
 

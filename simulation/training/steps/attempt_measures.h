@@ -32,7 +32,8 @@ struct AttemptMeasures {
   ValueSum measure_error;   // m, of a measured distance
   int to_see = 0, seen = 0;
   int to_probe = 0, probed = 0;
-  double marked_area = 0;  // m², touched with more than the safe probing force
+  int pressed = 0, in_band = 0;  // frames on a target to press; those with a force that it asks for
+  double marked_area = 0;        // m², touched with more than the safe probing force
 };
 
 }  // namespace arthro::simulation

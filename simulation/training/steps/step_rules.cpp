@@ -74,6 +74,17 @@ bool IsPressed(const StepFrame& at, int target, const glm::dvec2& force, bool mu
          (!must_see || at.frame.sight.is_tip_visible);
 }
 
+// Counts a frame in which the tip touches a target that is to be pressed.
+void MeasureForceBand(const StepFrame& at, const StepState& state, const glm::dvec2& force) {
+  if (Instrument(at).contact == kNoContact) return;
+  for (std::size_t i = 0; i < state.targets.size(); ++i) {
+    if (state.dwell[i].is_done || !IsTipAt(at, state.targets[i])) continue;
+    ++at.measures.pressed;
+    at.measures.in_band += IsWithin(Instrument(at).mean_force, force.x, force.y) ? 1 : 0;
+    return;
+  }
+}
+
 // Places of a path now; false where one is not known.
 bool PathNow(const StepFrame& at, StepState& state) {
   for (std::size_t i = 0; i < state.targets.size(); ++i) {
@@ -218,6 +229,7 @@ struct Rule {
   }
 
   StepOutcome operator()(const ProbeStep& step) {
+    MeasureForceBand(at, state, step.force);
     return EachTarget(
         step.hold, [&](int target) { return IsPressed(at, target, step.force, step.must_see); },
         [&](int target) {
@@ -350,6 +362,7 @@ struct Rule {
   }
 
   StepOutcome operator()(const RecoverStep& step) {
+    MeasureForceBand(at, state, step.force);
     return EachTarget(
         step.hold, [&](int target) { return IsPressed(at, target, step.force, true); },
         [&](int target) {

@@ -104,6 +104,24 @@ TEST_F(LooseBodiesOnATable, ChangeOfTheInstrumentDropsTheBody) {
   EXPECT_FALSE(bodies.all()[0].is_held);
 }
 
+TEST_F(LooseBodiesOnATable, BodyThatIsLetGoAtItsGoalStaysThere) {
+  for (const bool is_at_goal : {true, false}) {
+    const Ball goal{{is_at_goal ? 0.001 : 0.02, 0, 0.025}, 8e-3};
+    LooseBodies bodies(loaded, {{{0.001, 0, 0.025}, kRadius, false, true}}, relief, {goal});
+    now.instrument.proxy_in_portal = {0.001, -kRadius, 0.025};
+    now.instrument.opening = 1;
+    Ticks(bodies, 1);
+    now.instrument.opening = 0;
+    Ticks(bodies, 1);
+    ASSERT_TRUE(bodies.all()[0].is_held);
+    now.instrument.opening = 1;
+    Ticks(bodies, 100);
+    EXPECT_EQ(bodies.all()[0].is_at_rest, is_at_goal);
+    // Elsewhere it sinks, for 0.1 s.
+    EXPECT_NEAR(bodies.all()[0].place.y, is_at_goal ? 0.0 : 0.1 * kSinkSpeed, 1e-6);
+  }
+}
+
 TEST_F(LooseBodiesOnATable, TickAllocatesNothing) {
   LooseBodies bodies = Of({0.001, 0, 0.025});
   now.instrument.proxy_in_portal = {0.001, -kRadius, 0.025};
