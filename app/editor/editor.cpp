@@ -117,6 +117,7 @@ class Editor {
   }
 
   void End() {
+    EndLessons(state_);
     state_.practice.reset();
     EndFilm();
     if (const std::string missing = state_.steps.practice->hands->End(); !missing.empty())
@@ -191,6 +192,7 @@ class Editor {
       BeginPractice();
     else
       state_.message = options_.notice.empty() ? "F1 or ? shows all keys." : options_.notice;
+    OpenLessons(state_, RecordsFor(options_));
     recovery_.Offer(state_);
   }
 

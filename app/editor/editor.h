@@ -28,7 +28,8 @@ struct EditorOptions {
   std::string notice;                 // message for the start; empty: none
   // Settings of the window by name, as flags give them; others are as the user has set them.
   std::map<std::string, std::string> look;
-  int job_minutes = 2;  // longest work that a script waits for
+  int job_minutes = 2;                 // longest work that a script waits for
+  std::optional<std::string> records;  // place of the records; none: those of the user
   // For tests.
   std::optional<std::filesystem::path> recent;    // file of the recent scenes; none: the user's
   std::optional<std::filesystem::path> recovery;  // folder of copies; none: the user's

@@ -39,6 +39,11 @@ std::filesystem::path FileOfSettings(const EditorOptions& options) {
   return OwnFile(options, "settings.json");
 }
 
+std::optional<std::string> RecordsFor(const EditorOptions& options) {
+  if (options.records || !(options.script || options.frames > 0)) return options.records;
+  return "";
+}
+
 WindowSettings SettingsFrom(const EditorOptions& options) {
   WindowSettings settings = ReadWindowSettings(FileOfSettings(options));
   ReadOptions(nlohmann::json(options.look), {}, settings);

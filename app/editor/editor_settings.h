@@ -20,6 +20,8 @@ std::filesystem::path FolderOfCopies(const EditorOptions& options);
 // Files beside that of the recent scenes; empty: none.
 std::filesystem::path FileOfViews(const EditorOptions& options);
 std::filesystem::path FileOfSettings(const EditorOptions& options);
+// Place of the records of attempts; empty: nothing is kept; none: those of the user.
+std::optional<std::string> RecordsFor(const EditorOptions& options);
 WindowSettings SettingsFrom(const EditorOptions& options);
 double ScaleFrom(const EditorOptions& options, const WindowSettings& settings,
                  const MonitorSize& monitor);

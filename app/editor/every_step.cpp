@@ -9,6 +9,8 @@
 #include "app/files/start_page.h"
 #include "app/steps/budget/frame_budget.h"
 #include "app/steps/depth/depth_step.h"
+#include "app/steps/lessons/keeping/lesson_records.h"
+#include "app/steps/lessons/keeping/start_board.h"
 #include "app/steps/lessons/lessons_step.h"
 #include "app/steps/lessons/running_attempt.h"
 #include "app/steps/panorama/footage_work.h"
@@ -186,6 +188,8 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
   steps.practice.emplace(wake);
   steps.practice->rig.emplace();
   steps.lessons.emplace();
+  steps.lessons->records.emplace();
+  steps.lessons->start.emplace();
   steps.practice->budget.emplace();
   return EditorState(std::move(document), std::move(steps), AllCommands(), std::move(wake),
                      std::move(recent_file));

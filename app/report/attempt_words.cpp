@@ -24,8 +24,12 @@ ShownUnit ShownUnitOf(const std::string& unit) {
   return {1, unit.c_str()};
 }
 
+// Rounding of sums leaves values below this, which say nothing about an attempt, in shown units.
+constexpr double kLeastShown = 5e-5;
+
 // Four digits, and whole numbers as such.
 std::string Digits(double value) {
+  if (std::abs(value) < kLeastShown) return "0";
   return std::abs(value) >= 1000 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
 

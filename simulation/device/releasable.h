@@ -12,6 +12,9 @@ class Releasable {
 
   // Ends all force permanently, before the application ends. Callable from a signal handler.
   virtual void Release() noexcept = 0;
+  // True when zero force was written after Release, or nothing is left that could write. Callable
+  // from a signal handler.
+  virtual bool IsReleased() const noexcept = 0;
 };
 
 }  // namespace arthro::simulation

@@ -7,6 +7,7 @@
 
 #include "simulation/core/csv_field.h"
 #include "simulation/training/observe/frame_builder.h"
+#include "simulation/training/observe/surface_names.h"
 
 namespace arthro::simulation {
 namespace {
@@ -17,9 +18,6 @@ const char* Better(const Metric& metric) { return metric.is_more_better ? "more"
 
 Assessment AssessFrames(std::span<const AttemptFrame> frames, const Scene& scene,
                         const MetricLimits& limits) {
-  std::vector<std::string> surfaces;
-  for (int i = 0; i <= static_cast<int>(scene.tissues.size()); ++i)
-    surfaces.push_back(ContactName(i, scene));
   Assessment assessment;
   assessment.duration = kFrameTime * static_cast<double>(frames.size());
   assessment.frames = frames.size();
@@ -27,7 +25,7 @@ Assessment AssessFrames(std::span<const AttemptFrame> frames, const Scene& scene
       static_cast<std::size_t>(std::count_if(frames.begin(), frames.end(), [](const auto& frame) {
         return !frame.tool[0].is_valid && !frame.tool[1].is_valid;
       }));
-  assessment.values = MeasureAttempt(frames, surfaces, limits);
+  assessment.values = MeasureAttempt(frames, SurfaceNames(scene), limits);
   return assessment;
 }
 

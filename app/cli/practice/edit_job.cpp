@@ -98,6 +98,13 @@ void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options, J
       ->expected(0, 1);
 }
 
+void AddRecordsFlag(CLI::App& job, EditorOptions& options) {
+  job.add_option("--records", options.records,
+                 "Records that attempts at exercises are kept in: a file, or "
+                 "postgresql://USER@HOST/NAME. Without it: those of this user.")
+      ->type_name("PLACE");
+}
+
 // A rig or trace that cannot be used is told before there is a window.
 void Open(EditorOptions options, const HandFlags& flags, const JobFiles& files,
           const ScreenFlags& screens = {}) {
@@ -138,6 +145,7 @@ void AddEditJob(CLI::App& program) {
       ->type_name("SCENE");
   const auto hands = std::make_shared<HandFlags>();
   AddHandFlags(*job, *hands, *files);
+  AddRecordsFlag(*job, *options);
   AddLookFlags(*job, *options);
   AddWindowFlags(*job, *options);
   files->Run([options, hands, files] { Open(*options, *hands, *files); });
@@ -159,6 +167,7 @@ void AddPractiseJob(CLI::App& program) {
   AddHandFlags(*job, *hands, *files);
   const auto screens = std::make_shared<ScreenFlags>();
   AddScreenFlags(*job, *screens, *options, *files);
+  AddRecordsFlag(*job, *options);
   AddLookFlags(*job, *options);
   AddWindowFlags(*job, *options);
   AddOptions(*job, options->session);

@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 
 #include "app/records/store/table.h"
+#include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/sha256.h"
 
 namespace arthro::app {
 namespace {
@@ -147,6 +149,10 @@ AttemptMark::~AttemptMark() {
   ::close(lock_);
 }
 
+void AttemptMark::Leave() {
+  if (lock_ >= 0) ::close(std::exchange(lock_, -1));
+}
+
 AttemptMark::AttemptMark(AttemptMark&& other) noexcept
     : file_(std::move(other.file_)), lock_(std::exchange(other.lock_, -1)) {}
 
@@ -158,10 +164,10 @@ AttemptMark& AttemptMark::operator=(AttemptMark&& other) noexcept {
 
 std::string LogNameOf(const std::string& attempt) { return "attempts/" + attempt + ".attempt"; }
 
-RunningAttempt StartAttempt(Records& records, const SessionRow& session,
+StartedAttempt StartAttempt(Records& records, const SessionRow& session,
                             const ExerciseRow& exercise, const std::string& scene, AttemptMode mode,
                             int metrics_version) {
-  RunningAttempt running;
+  StartedAttempt running;
   AttemptRecord& record = running.record;
   record.id = records.NewId();
   record.session = session.id;
@@ -257,6 +263,17 @@ ExerciseRow FindExercise(Records& records, const std::string& id) {
   return found[0];
 }
 
+void SetLogSum(const fs::path& folder, AttemptRecord& record) {
+  try {
+    const std::string bytes = ReadWholeFile(folder / record.log);
+    record.log_sha256 = Sha256(bytes);
+    record.log_bytes = static_cast<int>(bytes.size());
+  } catch (const Error&) {
+    record.log_sha256.clear();
+    record.log_bytes = -1;
+  }
+}
+
 std::vector<std::string> RecoverAttempts(Records& records, const AssessLog& assess) {
   std::vector<std::string> sentences;
   for (AttemptRecord& record : Select<AttemptRecord>(
@@ -276,6 +293,7 @@ std::vector<std::string> RecoverAttempts(Records& records, const AssessLog& asse
     record.reason = result
                         ? "The program ended during the attempt; what its log holds was assessed."
                         : "The program ended during the attempt; its log could not be read.";
+    SetLogSum(records.folder(), record);
     if (FinishAttempt(records, record))
       sentences.push_back(
           fmt::format("the attempt {} of {} was cut short; {}", record.id, record.started,

@@ -31,20 +31,23 @@ class AttemptMark {
   AttemptMark(AttemptMark&& other) noexcept;
   AttemptMark& operator=(AttemptMark&& other) noexcept;
   bool is_held() const { return lock_ >= 0; }
+  // Gives the mark back without removing it: the attempt is recovered at the next start.
+  void Leave();
 
  private:
   std::filesystem::path file_;
   int lock_ = -1;
 };
 
-struct RunningAttempt {
+// An attempt whose row is written; its mark is held.
+struct StartedAttempt {
   AttemptRecord record;
   AttemptMark mark;
 };
 
 // Writes the row `running`. The begin of an attempt never lies before that of the trainee's last
 // one, even where the clock was set back: then it follows that one by 1 ms, and the audit says so.
-RunningAttempt StartAttempt(Records& records, const SessionRow& session,
+StartedAttempt StartAttempt(Records& records, const SessionRow& session,
                             const ExerciseRow& exercise, const std::string& scene, AttemptMode mode,
                             int metrics_version);
 
@@ -66,6 +69,9 @@ std::vector<AttemptRecord> AttemptsOf(Records& records, const std::string& train
 
 // The newest version of an exercise in the records. Throws Error where there is none.
 ExerciseRow FindExercise(Records& records, const std::string& id);
+
+// Checksum and size of the attempt's log, where it can be read.
+void SetLogSum(const std::filesystem::path& folder, AttemptRecord& record);
 
 // Attempts of this station and folder that were cut short become `stopped`, with what `assess`
 // finds in their logs; nothing from it means that the log could not be read. Returns a sentence for

@@ -19,20 +19,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestCode = 32;
 
-void CheckCode(const std::string& code) {
-  const bool is_plain = !code.empty() && code.size() <= kLongestCode &&
-                        std::all_of(code.begin(), code.end(), [](unsigned char letter) {
-                          return std::isalnum(letter) || letter == '-' || letter == '_';
-                        });
-  if (!is_plain)
-    throw Error(Code::kBadArgument,
-                fmt::format("the code of a trainee is \"{}\"; it may have 1 to {} letters of "
-                            "A-Z, a-z, 0-9, - and _, and must not be a name",
-                            code, kLongestCode));
-}
-
 void RefuseTaken(Records& records, const std::string& code) {
-  if (!records.database().Ask("SELECT id FROM trainees WHERE code = :code", {code}).empty())
+  if (KnowsTrainee(records, code))
     throw Error(Code::kBadArgument,
                 fmt::format("the code {} belongs to another trainee; choose another, such as {}",
                             code, FreeCode(records)));
@@ -47,8 +35,20 @@ std::string CohortId(Records& records, const std::string& name) {
 
 }  // namespace
 
+void CheckTraineeCode(const std::string& code) {
+  const bool is_plain = !code.empty() && code.size() <= kLongestCode &&
+                        std::all_of(code.begin(), code.end(), [](unsigned char letter) {
+                          return std::isalnum(letter) || letter == '-' || letter == '_';
+                        });
+  if (!is_plain)
+    throw Error(Code::kBadArgument,
+                fmt::format("the code of a trainee is \"{}\"; it may have 1 to {} letters of "
+                            "A-Z, a-z, 0-9, - and _, and must not be a name",
+                            code, kLongestCode));
+}
+
 TraineeRow AddTrainee(Records& records, TraineeRow trainee) {
-  CheckCode(trainee.code);
+  CheckTraineeCode(trainee.code);
   records.database().Write([&] {
     RefuseTaken(records, trainee.code);
     trainee.id = records.NewId();
@@ -66,9 +66,12 @@ std::string FreeCode(Records& records) {
     Random random = RandomFromSystem();
     std::string code = "T-";
     for (int i = 0; i < 4; ++i) code += kLetters[random.Below(kLetters.size())];
-    if (records.database().Ask("SELECT id FROM trainees WHERE code = :code", {code}).empty())
-      return code;
+    if (!KnowsTrainee(records, code)) return code;
   }
+}
+
+bool KnowsTrainee(Records& records, const std::string& code) {
+  return !records.database().Ask("SELECT id FROM trainees WHERE code = :code", {code}).empty();
 }
 
 std::vector<TraineeRow> TraineesOf(Records& records) {
@@ -92,7 +95,7 @@ TraineeRow FindTrainee(Records& records, const std::string& code) {
 
 void RenameTrainee(Records& records, const std::string& code, const std::string& new_code,
                    const std::string& who) {
-  CheckCode(new_code);
+  CheckTraineeCode(new_code);
   records.database().Write([&] {
     const TraineeRow trainee = FindTrainee(records, code);
     RefuseTaken(records, new_code);

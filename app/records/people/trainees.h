@@ -11,11 +11,14 @@
 
 namespace arthro::app {
 
+// Throws Error(kBadArgument) for a text that cannot be a code.
+void CheckTraineeCode(const std::string& code);
 // `trainee` without id and time, which it gets; its `cohort` is a name, made where it is new.
 // Throws Error where the code is taken or no code.
 TraineeRow AddTrainee(Records& records, TraineeRow trainee);
 // A new code that nobody has, such as T-7F3K.
 std::string FreeCode(Records& records);
+bool KnowsTrainee(Records& records, const std::string& code);
 std::vector<TraineeRow> TraineesOf(Records& records);
 std::vector<CohortRow> CohortsOf(Records& records);
 TraineeRow FindTrainee(Records& records, const std::string& code);  // throws Error

@@ -16,10 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 RecordsOptions Completed(RecordsOptions options) {
-  if (options.station.empty()) {
-    std::array<char, 256> name{};
-    options.station = ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
-  }
+  if (options.station.empty()) options.station = StationName();
   if (!options.now) options.now = UtcNow;
   return options;
 }
@@ -50,6 +47,11 @@ std::string DefaultRecords() {
 fs::path RecordsFolder(const std::string& connection) {
   const fs::path file = IsServer(connection) ? DefaultRecords() : connection;
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+std::string StationName() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
 std::string UuidOf(Random& random) {

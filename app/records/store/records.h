@@ -48,6 +48,7 @@ std::string DefaultRecords();
 // The folder of a database file, or that of DefaultRecords for a server.
 std::filesystem::path RecordsFolder(const std::string& connection);
 
+std::string StationName();           // name of this machine
 std::string UuidOf(Random& random);  // version 4
 Random RandomFromSystem();           // starts at a number of the system's random source
 

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/steps/lessons/keeping/lesson_records.h"
+#include "app/steps/lessons/keeping/start_board.h"
 #include "app/steps/lessons/running_attempt.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/practice/start_practice.h"
 #include "simulation/practice/hands/offered_instruments.h"
 #include "simulation/training/metrics/exercise_metrics.h"
 #include "simulation/training/observe/exercise_targets.h"
+#include "simulation/training/observe/surface_names.h"
 #include "simulation/training/score/criteria.h"
 
 namespace arthro::app {
@@ -37,10 +40,23 @@ void SetUp(EditorState& state, const ExerciseSetup& setup) {
       {setup.scope.latitude, setup.scope.longitude, setup.scope.roll, setup.scope.insertion});
 }
 
-std::vector<std::string> SurfaceNames(const Scene& scene) {
-  std::vector<std::string> names{"backdrop"};
-  for (const Tissue& tissue : scene.tissues) names.push_back(tissue.name);
-  return names;
+// Words for what holds the hands: mouse, zero-force and force rigs never share a group.
+std::string RigWords(const simulation::Hands& hands) {
+  std::string words;
+  for (const auto role : {simulation::DeviceRole::kScope, simulation::DeviceRole::kInstrument}) {
+    const std::string hand = hands.Now(role).name;
+    if (words != hand) words += (words.empty() ? "" : " and ") + hand;
+  }
+  return hands.is_zero_force() ? words + ", zero force" : words;
+}
+
+// Frames and events that the log does not hold yet.
+void KeepNews(LessonsStep& step, std::span<const simulation::AttemptFrame> frames) {
+  RunningAttempt& running = *step.running;
+  const auto& events = running.engine.events();
+  if (step.records->attempt)
+    step.records->attempt->Add(frames, std::span(events).subspan(running.kept_events));
+  running.kept_events = events.size();
 }
 
 // The practice ends before what watches it.
@@ -48,20 +64,29 @@ void EndAttempt(EditorState& state) {
   LessonsStep& step = *state.steps.lessons;
   RunningAttempt& running = *step.running;
   running.engine.Finish();
-  FinishedAttempt finished{running.engine.exercise(), step.trainee, step.is_test, {}, {}};
+  KeepNews(step, {});
+  FinishedAttempt finished;
+  finished.exercise = running.engine.exercise();
+  finished.trainee = step.records->trainee;
+  finished.is_test = step.is_test;
   finished.frames = std::move(running.frames);
   finished.result = simulation::ResultOf(
-      running.engine, simulation::MeasureExercise(finished.frames, running.engine,
-                                                  SurfaceNames(state.document().scene)));
+      running.engine,
+      simulation::MeasureExercise(finished.frames, running.engine,
+                                  simulation::SurfaceNames(state.document().scene)),
+      GroupsFor(*step.records, finished.exercise));
   state.practice.reset();
   step.running.reset();
   state.steps.practice->end_attempt = {};
+  if (step.records->attempt) finished.id = step.records->attempt->record().id;
   step.finished = std::move(finished);
   step.debrief = {};
   step.page = LessonPage::kSummary;
+  step.start->is_stale = true;
   state.steps.practice->disturbing.now = {};
   state.full_screen = false;
   state.message = "The attempt has ended.";
+  KeepAttempt(state);
 }
 
 }  // namespace
@@ -100,7 +125,11 @@ void BeginExercise(EditorState& state) {
     now.steps.practice->end_attempt = StopAttempt;
     step.finished.reset();
     step.page = LessonPage::kAttempt;
-    now.message = "The attempt runs. Esc ends it.";
+    const std::string notice =
+        BeginKeeping(*step.records, exercise, now.document().scene,
+                     step.is_test ? AttemptMode::kTest : AttemptMode::kPractice,
+                     RigWords(*now.steps.practice->hands));
+    now.message = notice.empty() ? "The attempt runs. Esc ends it." : notice;
   });
 }
 
@@ -110,17 +139,50 @@ void Act(EditorState& state, const simulation::TraineeAct& act) {
 
 void StopAttempt(EditorState& state) { EndAttempt(state); }
 
+void KeepAttempt(EditorState& state) {
+  LessonsStep& step = *state.steps.lessons;
+  if (!step.records->attempt || !step.finished) return;
+  step.finished->kept = EndKeeping(*step.records, step.finished->result);
+  state.message = step.finished->kept;
+}
+
+bool HasUnkeptAttempt(const EditorState& state) {
+  return state.steps.lessons->records->unwritten.has_value();
+}
+
+void OpenLessons(EditorState& state, const std::optional<std::string>& place) {
+  LessonRecords& records = *state.steps.lessons->records;
+  try {
+    records.place = place ? *place : DefaultRecords();
+  } catch (const Error& fault) {  // no home
+    records.fault = fault.what();
+  }
+  if (records.place.empty()) return;
+  // Records that are not there yet are made with their first trainee.
+  std::error_code ignored;
+  if (!IsServer(records.place) && !std::filesystem::exists(records.place, ignored)) return;
+  for (const std::string& sentence : OpenRecords(records)) state.message = sentence;
+}
+
+void EndLessons(EditorState& state) {
+  LessonsStep& step = *state.steps.lessons;
+  if (step.running && state.practice) EndAttempt(state);
+  LeaveTrainee(*step.records);
+}
+
 bool FollowAttempt(EditorState& state) {
   LessonsStep& step = *state.steps.lessons;
   if (!step.running || !state.practice) return false;
   RunningAttempt& running = *step.running;
   bool is_changed = false;
-  for (const simulation::AttemptFrame& frame : running.live.Update(state.practice->tissues())) {
+  const auto ended = running.live.Update(state.practice->tissues());
+  for (const simulation::AttemptFrame& frame : ended) {
     running.frames.push_back(frame);
     running.engine.Advance(frame, running.acts);
     running.acts.clear();
     is_changed = true;
   }
+  KeepNews(step, ended);
   const ExerciseSetup& setup = running.engine.exercise().setup;
   state.steps.practice->disturbing.now.haze =
       std::max(setup.disturbances.haze, running.engine.strip().haze);

@@ -13,5 +13,8 @@ void BeginExercise(EditorState& state);
 void Act(EditorState& state, const simulation::TraineeAct& act);
 // Ends the attempt as one that was stopped, and its practice.
 void StopAttempt(EditorState& state);
+// Tries again to keep an attempt that neither the records nor the outbox took.
+bool HasUnkeptAttempt(const EditorState& state);
+void KeepAttempt(EditorState& state);
 
 }  // namespace arthro::app

@@ -59,6 +59,7 @@ void List(Ui& ui, EditorState& state) {
   ImGui::SameLine(0, ui.Px(6));
   CommandButton(ui, state, "remove-exercise", {half, 0});
   CommandButton(ui, state, "exercise-briefing", {-FLT_MIN, ui.Px(44)});
+  CommandButton(ui, state, "trainee-page", {-FLT_MIN, 0});
 }
 
 void Words(Ui& ui, EditorState& state, const Exercise& exercise) {

@@ -4,6 +4,7 @@
 #include "app/state/edits.h"
 #include "app/steps/lessons/attempt.h"
 #include "app/steps/lessons/exercise_edit.h"
+#include "app/steps/lessons/keeping/start_board.h"
 
 namespace arthro::app {
 namespace {
@@ -36,6 +37,33 @@ constexpr Command kCommands[] = {
      {},
      MayBeginExercise,
      [](State& state) { state.steps.lessons->page = LessonPage::kBriefing; }},
+    {"trainee-page",
+     "Trainee's page",
+     "Show the exercises of this scene with the results and gates of a trainee.",
+     "Lessons",
+     {GLFW_KEY_F6, true},
+     {},
+     InEditor,
+     [](State& state) {
+       state.steps.lessons->start->is_stale = true;
+       state.steps.lessons->page = LessonPage::kStart;
+     }},
+    {"repeat-exercise",
+     "Again",
+     "Begin another attempt at the same exercise.",
+     "Lessons",
+     {},
+     {},
+     MayBeginExercise,
+     BeginExercise},
+    {"keep-attempt",
+     "Keep attempt",
+     "Try again to write the attempt, which neither the records nor the outbox took.",
+     "Lessons",
+     {},
+     {},
+     HasUnkeptAttempt,
+     KeepAttempt},
     {"begin-exercise",
      "Begin",
      "Begin an attempt at the chosen exercise.",

@@ -9,6 +9,7 @@
 #include "app/panels/fixed_window.h"
 #include "app/panels/options_panel.h"
 #include "app/steps/lessons/attempt.h"
+#include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/running_attempt.h"
 #include "app/steps/lessons/value_words.h"
 
@@ -50,11 +51,15 @@ void Briefing(Ui& ui, EditorState& state, const Exercise& exercise) {
   Heading(ui, "A pass needs");
   AskedFor(ui, exercise);
   Gap(ui);
-  TextField(ui, "Trainee's code", state.steps.lessons->trainee, "for example T-7F3K");
-  Checkbox(ui, "Test", state.steps.lessons->is_test,
+  const std::string& trainee = state.steps.lessons->records->trainee;
+  Text(ui, trainee.empty() ? "No trainee is chosen: the attempt is not kept."
+                           : "Kept for trainee " + trainee + ".");
+  Checkbox(ui, "Test, for the gate", state.steps.lessons->is_test,
            "A test counts for the gate of the exercise; practice does not.");
   Gap(ui);
   CommandButton(ui, state, "begin-exercise", {ui.Px(160), ui.Px(44)});
+  ImGui::SameLine();
+  CommandButton(ui, state, "trainee-page", {ui.Px(170), ui.Px(44)});
   ImGui::SameLine();
   CommandButton(ui, state, "close-lesson", {ui.Px(120), ui.Px(44)});
 }
@@ -158,6 +163,9 @@ void Summary(Ui& ui, EditorState& state, const FinishedAttempt& attempt) {
             result.outcome == AttemptOutcome::kPassed ? kGood : kWarning);
   Text(ui, attempt.exercise.title + ", " + ClockWords(result.duration));
   if (!result.reason.empty()) Text(ui, result.reason);
+  if (!attempt.kept.empty())
+    ColouredText(ui, attempt.kept, HasUnkeptAttempt(state) ? kBad : kQuiet);
+  if (HasUnkeptAttempt(state)) CommandButton(ui, state, "keep-attempt", {ui.Px(170), ui.Px(44)});
   Gap(ui);
   if (!result.criteria.empty()) {
     Heading(ui, "Criteria");
@@ -170,9 +178,11 @@ void Summary(Ui& ui, EditorState& state, const FinishedAttempt& attempt) {
       Text(ui, fmt::format("{}: {}", MetricWords(std::string(value.metric->id), value.part),
                            ValueOfMetric(std::string(value.metric->id), *value.value)));
   Gap(ui);
+  CommandButton(ui, state, "repeat-exercise", {ui.Px(150), ui.Px(44)});
+  ImGui::SameLine();
   CommandButton(ui, state, "attempt-debrief", {ui.Px(150), ui.Px(44)});
   ImGui::SameLine();
-  CommandButton(ui, state, "exercise-briefing", {ui.Px(170), ui.Px(44)});
+  CommandButton(ui, state, "trainee-page", {ui.Px(170), ui.Px(44)});
   ImGui::SameLine();
   CommandButton(ui, state, "close-lesson", {ui.Px(120), ui.Px(44)});
 }
@@ -183,6 +193,7 @@ void LessonPagePanel(Ui& ui, EditorState& state, const Area& area) {
   const FixedWindow window(ui, "lesson", area, kPageWindow);
   LessonsStep& step = *state.steps.lessons;
   if (step.running) return UnderWay(ui, state);
+  if (step.page == LessonPage::kStart) return TraineePage(ui, state);
   if (step.page == LessonPage::kBriefing && ChosenExercise(state) != nullptr)
     return Briefing(ui, state, *ChosenExercise(state));
   if (step.finished) Summary(ui, state, *step.finished);

@@ -19,7 +19,9 @@ namespace arthro::app {
 
 struct Area;
 struct Ui;
+struct LessonRecords;   // keeping/lesson_records.h
 struct RunningAttempt;  // running_attempt.h
+struct StartBoard;      // keeping/start_board.h
 
 // An attempt that has ended, with everything that was observed of it.
 struct FinishedAttempt {
@@ -28,6 +30,10 @@ struct FinishedAttempt {
   bool is_test = false;
   simulation::AttemptResult result;
   std::vector<simulation::AttemptFrame> frames;
+  std::string id;       // in the records; empty: it is not there
+  std::string started;  // UTC; empty: it has just ended
+  std::string kept;     // sentence about where it is kept
+  std::string notice;   // parts that cannot be shown; empty: none
 };
 
 // A position in the attempt that is looked back at.
@@ -37,13 +43,14 @@ struct Debrief {
   double speed = 1;
 };
 
-enum class LessonPage { kNone, kBriefing, kAttempt, kSummary, kDebrief };
+enum class LessonPage { kNone, kStart, kBriefing, kAttempt, kSummary, kDebrief };
 
 struct LessonsStep {
-  std::string trainee;  // code; results are kept under it
   bool is_test = false;
   int chosen = -1;  // exercise of the scene
   LessonPage page = LessonPage::kNone;
+  Owned<LessonRecords> records;
+  Owned<StartBoard> start;
   Owned<RunningAttempt> running;
   std::optional<FinishedAttempt> finished;
   Debrief debrief;
@@ -57,6 +64,12 @@ const Exercise* ChosenExercise(const EditorState& state);
 
 std::span<const Command> LessonCommands();
 
+// Opens the records at `place`, or those of the user, and recovers attempts that were cut short. An
+// empty place keeps nothing.
+void OpenLessons(EditorState& state, const std::optional<std::string>& place);
+// The program ends: an attempt that runs is stopped and kept.
+void EndLessons(EditorState& state);
+
 // Once per frame, after the practice has advanced: observes it and follows the steps. True when
 // something changed.
 bool FollowAttempt(EditorState& state);
@@ -66,6 +79,7 @@ void PlayDebrief(EditorState& state, double seconds);
 const simulation::AttemptFrame* DebriefFrame(const EditorState& state);
 
 void ExercisesPanel(Ui& ui, EditorState& state);                     // the editor's step
+void TraineePage(Ui& ui, EditorState& state);                        // inside of the next one
 void LessonPagePanel(Ui& ui, EditorState& state, const Area& area);  // instead of the practice's
 // The look back: beside the scope's picture, and in the place of the overview.
 void DebriefSide(Ui& ui, EditorState& state, const Area& area);

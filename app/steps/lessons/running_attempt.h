@@ -21,6 +21,7 @@ struct RunningAttempt {
   simulation::StepEngine engine;
   std::vector<simulation::AttemptFrame> frames;
   std::vector<simulation::TraineeAct> acts;  // acts for the frame to come
+  std::size_t kept_events = 0;               // events that were handed to the log
 };
 
 }  // namespace arthro::app

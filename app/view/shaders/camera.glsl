@@ -22,7 +22,10 @@ const float kLeastEdge = 0.1;  // smallest fade that is divided by
 // Gain of a usual camera on detail. Detail up to the coring level is noise for it: it is smoothed.
 const float kDetailGain = 3.6;
 const float kCoring = 0.7 / 255.0;  // stored level
-const float kMostDetail = 14.0 / 255.0;  // limit of what is enhanced, against halos
+const float kMostDetail = 14.0 / 255.0;  // limit of what is enhanced
+// Limit beside an edge, against halos: 3.6 times that is the 18 levels by which a real camera draws
+// the foot of an edge of 100 levels too dark.
+const float kMostHalo = 5.0 / 255.0;
 float lumaAt(vec2 at) { return dot(textureLod(picture, at, 0.0).rgb, kLuma); }
 
 // Returns the colour of the pixel that lies (x, y) pixels aside. SAME_SIZE: reads one texel.
@@ -34,6 +37,15 @@ vec3 colourAside(int x, int y) {
   return textureLod(picture, texCoord + pixel * vec2(x, y), 0.0).rgb;
 #endif
 }
+
+#ifdef DETAIL
+// Returns how far a pixel lies above both its neighbours, or below both: beside an edge it is 0. A
+// height of twice the limit is a stair of an edge, and no detail either.
+float ridge(float before, float after) {
+  float height = before * after > 0.0 ? min(abs(before), abs(after)) : 0.0;
+  return max(min(height, 2.0 * kMostDetail - height), 0.0);
+}
+#endif
 
 #if defined(MARKS) || defined(EDGES)
 const float kLeastContrast = 0.05;  // stored level
@@ -127,7 +139,9 @@ void main() {
 #endif
 #ifdef DETAIL
   float fine = clamp(detail, -kCoring, kCoring);
-  float clear = clamp(detail - fine, -kMostDetail, kMostDetail);
+  float most = min(kMostHalo + max(ridge(middle - n, middle - s), ridge(middle - e, middle - w)),
+                   kMostDetail);
+  float clear = clamp(detail - fine, -most, most);
   float centre = kDetailGain * sharpening * clear - min(sharpening, 1.0) * fine;
   colour += mix(centre, -rimBlur * detail, min(r2 * r2, 1.0));
 #endif

@@ -300,9 +300,16 @@ void LiveLink::WriteLoop() noexcept {
     while (sem_trywait(&wake_) == 0) {
     }
     if (stop_) break;
+    const bool is_released = is_released_;  // a release from here on is for the next turn
     const std::scoped_lock guard(link_mutex_);
     if (link_ && !is_dead_) WriteOne(commands_.Read(), is_silent);
+    if (is_released) has_let_go_ = true;
   }
+  WriteLastReports();
+  has_let_go_ = true;
+}
+
+void LiveLink::WriteLastReports() noexcept {
   const std::scoped_lock guard(link_mutex_);
   if (!link_ || is_dead_) return;
   is_released_ = true;

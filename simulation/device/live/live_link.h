@@ -79,6 +79,7 @@ class LiveLink final : public Releasable {
   // Homes the device: its handle is in its rest. Any thread.
   void AskHome() noexcept { asks_home_.store(true); }
   void Release() noexcept override;
+  bool IsReleased() const noexcept override { return has_let_go_.load(); }
 
   // Callable from any thread; these may wait.
   LinkCounts counts() const noexcept;
@@ -99,6 +100,7 @@ class LiveLink final : public Releasable {
   void Close() noexcept;
   bool Drain(double& empty_at) noexcept;
   void WriteOne(const ForceCommand& command, bool is_silent) noexcept;
+  void WriteLastReports() noexcept;
   bool Pause(double seconds) noexcept;  // false: the link is stopping
   void SetDetail(const std::string& text);
 
@@ -126,7 +128,7 @@ class LiveLink final : public Releasable {
   double written_at_ = -1;   // used by the writer
   bool is_zero_written_ = false;
   std::atomic<bool> is_present_{false}, is_dead_{false}, wants_home_{false}, asks_home_{false},
-      is_released_{false}, stop_{false};
+      is_released_{false}, has_let_go_{false}, stop_{false};
   std::atomic<int> opening_{0};
   std::atomic<DeviceTrouble> trouble_{DeviceTrouble::kNone};
   std::atomic<double> write_began_{0};

@@ -15,7 +15,10 @@ constexpr std::array kFaults{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, 
 // Signals whose default action does not end a process, and those that cannot be handled.
 constexpr std::array kEndNothing{SIGKILL,  SIGSTOP, SIGCHLD, SIGCONT, SIGURG,
                                  SIGWINCH, SIGTSTP, SIGTTIN, SIGTTOU};
-constexpr long kForWriters = 20'000'000;  // ns; ten times the duration of a report
+// The signal waits until every writer has written zero. A report takes 2 ms; on a busy machine a
+// writer may wait for a core much longer. A writer that is blocked for good writes nothing, whether
+// the program lives or not.
+constexpr long kLookAtWriters = 1'000'000, kMostForWriters = 500'000'000;  // ns
 
 std::array<std::atomic<Releasable*>, ReleaseOnCrash::kMost> to_release{};
 static_assert(std::atomic<Releasable*>::is_always_lock_free);
@@ -39,12 +42,16 @@ void RestoreActions() noexcept {
 
 // These functions call only async-signal-safe functions.
 void LetGo() {
-  bool is_any = false;
   for (auto& device : to_release)
-    if (Releasable* own = device.load()) own->Release(), is_any = true;
-  timespec pause{0, kForWriters};
-  while (is_any && nanosleep(&pause, &pause) != 0) {
-  }
+    if (Releasable* own = device.load()) own->Release();
+  const auto is_released = [](const auto& device) {
+    const Releasable* own = device.load();
+    return own == nullptr || own->IsReleased();
+  };
+  const timespec pause{0, kLookAtWriters};
+  for (long waited = 0; waited < kMostForWriters && !std::ranges::all_of(to_release, is_released);
+       waited += kLookAtWriters)
+    nanosleep(&pause, nullptr);
 }
 
 // A signal in another thread meanwhile waits for the writers too, since the actions are restored

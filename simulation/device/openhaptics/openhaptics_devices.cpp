@@ -299,12 +299,14 @@ class OpenHapticsDevices::OneHand final : public Device {
 
 struct OpenHapticsDevices::Scheduled {
   std::vector<Line*> lines;
-  std::atomic<bool> is_released{false};
+  std::atomic<bool> is_released{false}, has_let_go{false};
   HDSchedulerHandle handle = 0;
-  bool is_running = false;
+  std::atomic<bool> is_running{false};
 
   void Frames() noexcept {
-    for (Line* line : lines) line->Frame(is_released.load(std::memory_order_relaxed));
+    const bool was_released = is_released.load(std::memory_order_relaxed);
+    for (Line* line : lines) line->Frame(was_released);
+    if (was_released) has_let_go = true;
   }
   static HDCallbackCode HDCALLBACK EachTick(void* self) {
     static_cast<Scheduled*>(self)->Frames();
@@ -388,6 +390,10 @@ long OpenHapticsDevices::frames(std::size_t i) const noexcept { return lines_[i]
 
 void OpenHapticsDevices::Release() noexcept {
   scheduled_->is_released.store(true, std::memory_order_relaxed);
+}
+
+bool OpenHapticsDevices::IsReleased() const noexcept {
+  return !scheduled_->is_running || scheduled_->has_let_go;
 }
 
 }  // namespace arthro::simulation

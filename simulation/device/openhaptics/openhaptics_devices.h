@@ -49,6 +49,7 @@ class OpenHapticsDevices final : public Releasable {
   long frames(std::size_t i) const noexcept;
 
   void Release() noexcept override;
+  bool IsReleased() const noexcept override;
 
   class Line;
   class OneHand;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "simulation/scene/exercise/exercise.h"
 
@@ -11,6 +12,9 @@ namespace arthro {
 // JSON on one line with the keys in alphabetical order: the same for the same exercise, whatever
 // the order of its keys in scene.json was.
 std::string CanonicalJson(Exercise exercise);
+
+// The exercise of such a text. Throws Error(kBadData) with the first fault.
+Exercise ExerciseFromJson(std::string_view text);
 
 // SHA-256 of the canonical JSON.
 std::string HashOf(const Exercise& exercise);

@@ -46,12 +46,12 @@ struct GateState {
 GateState GateOf(const ExerciseGate& gate, const std::string& exercise_hash,
                  std::span<const GateAttempt> attempts);
 
-// An exercise is open when the gates of all exercises that it needs are; else one sentence that
-// says which is not. `is_open(id)` says it of one.
+// An exercise is open when the gates of all exercises that it needs are; else the id of the first
+// that is not. `is_open(id)` says it of one.
 template <class IsOpen>
-std::string WhyShut(const Exercise& exercise, const IsOpen& is_open) {
+std::string FirstShut(const Exercise& exercise, const IsOpen& is_open) {
   for (const std::string& id : exercise.needs)
-    if (!is_open(id)) return "Pass \"" + id + "\" first.";
+    if (!is_open(id)) return id;
   return "";
 }
 

@@ -224,7 +224,8 @@ void StepEngine::AdvanceSteps(const StepFrame& at) {
     const double since = kFrameTime * state.frames;
     const bool is_cue_due =
         base.cue != CueKind::kNone && (is_hint_asked_ || since >= base.cue_after);
-    if (is_cue_due && !state.is_cue_due) Add(EventKind::kCue, -1, 0, "");
+    if (is_cue_due && !state.is_cue_due)
+      Add(EventKind::kCue, -1, 0, since >= base.cue_after ? "" : kAskedFor);
     state.is_cue_due = state.is_cue_due || is_cue_due;
     std::string next;
     StepOutcome outcome = AdvanceStep(exercise_.steps[i], at, state, &next);
@@ -304,7 +305,7 @@ void StepEngine::Advance(const AttemptFrame& frame, std::span<const TraineeAct> 
 
 void StepEngine::Finish() {
   if (end_ != AttemptEnd::kRunning) return;
-  Event(EventKind::kStopped, "", "the recording ends");
+  Event(EventKind::kStopped, "", kRecordingEnds);
   End(AttemptEnd::kStopped, "The attempt was stopped before its end.");
 }
 

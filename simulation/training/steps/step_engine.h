@@ -18,6 +18,11 @@
 
 namespace arthro::simulation {
 
+// Note of the event `stopped` where a recording ends before the attempt does.
+inline constexpr std::string_view kRecordingEnds = "the recording ends";
+// Note of a cue that comes before its time.
+inline constexpr std::string_view kAskedFor = "asked for";
+
 // Reason for which an attempt ended.
 enum class AttemptEnd { kRunning, kCompleted, kStepFailed, kLimit, kStopped, kVoid };
 

@@ -90,6 +90,7 @@ TEST(AttemptWords, LengthsAndAnglesAreThoseOfAReader) {
   EXPECT_EQ(ValueWords(3.14159265, "rad"), "180 °");
   EXPECT_EQ(ValueWords(1e-5, "m²"), "10 mm²");
   EXPECT_EQ(ValueWords(12345.6, "s"), "12346 s");
+  EXPECT_EQ(ValueWords(6.852e-17, "m"), "0 mm");
   EXPECT_EQ(ValueWords({}, "m"), "not measured");
   CriterionRow both;
   both.low = 0.5;

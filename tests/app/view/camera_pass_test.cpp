@@ -220,6 +220,30 @@ TEST_F(CameraPassView, CentreIsSharperThanTheRim) {
   EXPECT_EQ(steepest(512, soft, 100, 150), steepest(512, kNothing, 100, 150));
 }
 
+// The foot of an edge of 100 levels is drawn 18 levels too dark by a real camera. A larger halo is
+// a second outline, and a row of beads along a slanting edge.
+TEST_F(CameraPassView, EdgeHasNoHalo) {
+  constexpr int kSide = 1024;
+  ColourImage slanting = Grey(kSide, kSide, 60);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = kSide / 4 + y / 2; x < kSide; ++x)
+      std::fill_n(slanting.at(x, y), 3, std::uint8_t{160});
+  LensCamera sharp = kNothing;
+  sharp.sharpening = 1;
+  for (const ColourImage& panorama : {Halves(kSide, kSide, kSide / 2), slanting}) {
+    const ColourImage without = Drawn(Forward(panorama, kNothing));
+    const ColourImage with = Drawn(Forward(panorama, sharp));
+    int most = 0;
+    for (int y = kSize / 4; y < kSize * 3 / 4; ++y)
+      for (int x = kSize / 4; x < kSize * 3 / 4; ++x)
+        most = std::max(most, std::abs(with.at(x, y)[1] - without.at(x, y)[1]));
+    const double gain = view_->exposure().gain;
+    std::printf("largest halo: %d levels at a gain of %.2f\n", most, gain);
+    EXPECT_GT(most, 0);
+    EXPECT_LE(most, 18 * gain + 1);  // and rounding
+  }
+}
+
 TEST_F(CameraPassView, GrainIsAtMostItsAmplitudeAndHasNoMean) {
   LensCamera camera = kNothing;
   const ColourImage clean = Drawn(Forward(Grey(256, 256, 120), camera));

@@ -221,6 +221,8 @@ TEST(BenchJob, PrintsTheLookOfASceneBesideThatOfFrames) {
   EXPECT_GE(demo.at("p99"), 240);
   EXPECT_GE(demo.at("clipped"), 0.01);
   EXPECT_LE(demo.at("clipped"), 0.06);
+  EXPECT_GE(demo.at("gradient"), 2.5);
+  EXPECT_LE(demo.at("flat"), 0.3);
 }
 
 TEST(BenchJob, LookWithoutASceneOrFramesIsRefused) {

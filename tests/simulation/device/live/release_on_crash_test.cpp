@@ -18,18 +18,22 @@ namespace {
 
 constexpr const char* kReleased = "RELEASED";
 
-// Device with a writer thread, as a real one, that outlives it.
-std::atomic<bool> asked{false};
+// Device with a writer thread, as a real one, that outlives it. The writer gets a core `late` after
+// it was asked.
+std::atomic<bool> asked{false}, is_written{false};
 class FakeDevice final : public Releasable {
  public:
-  FakeDevice() {
-    std::thread([] {
+  explicit FakeDevice(std::chrono::milliseconds late = {}) {
+    std::thread([late] {
       while (!asked) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      std::this_thread::sleep_for(late);
       if (::write(STDERR_FILENO, kReleased, 8) != 8) std::_Exit(3);
+      is_written = true;
       for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
     }).detach();
   }
   void Release() noexcept override { asked = true; }
+  bool IsReleased() const noexcept override { return is_written; }
 };
 
 // Recursion that no optimiser can turn into a loop or recognise as endless.
@@ -76,6 +80,26 @@ TEST_P(EverySignalDeathTest, ReleasesThenEndsTheProgramAsBefore) {
         WaitForDeath();
       },
       testing::KilledBySignal(signal), kReleased);
+}
+
+TEST_F(ReleaseOnCrashDeathTest, ASignalWaitsForAWriterThatGetsItsCoreLate) {
+  EXPECT_EXIT(
+      {
+        const ReleaseOnCrash guard({std::make_shared<FakeDevice>(std::chrono::milliseconds(150))});
+        ::kill(::getpid(), SIGTERM);
+        WaitForDeath();
+      },
+      testing::KilledBySignal(SIGTERM), kReleased);
+}
+
+TEST_F(ReleaseOnCrashDeathTest, AWriterThatIsBlockedDoesNotKeepTheProgramAlive) {
+  EXPECT_EXIT(
+      {
+        const ReleaseOnCrash guard({std::make_shared<FakeDevice>(std::chrono::seconds(50))});
+        ::kill(::getpid(), SIGTERM);
+        WaitForDeath();
+      },
+      testing::KilledBySignal(SIGTERM), "^$");
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, EverySignalDeathTest,

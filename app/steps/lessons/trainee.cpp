@@ -1,0 +1,95 @@
+#include "app/steps/lessons/trainee.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/steps/lessons/keeping/lesson_records.h"
+#include "simulation/core/error.h"
+#include "simulation/scene/json/exercise_json.h"
+
+namespace arthro::app {
+namespace {
+
+StartBoard& BoardOf(EditorState& state) { return *state.steps.lessons->start; }
+
+// Runs `work`; what the records refuse is the page's fault.
+template <class Work>
+void Try(EditorState& state, const Work& work) {
+  StartBoard& board = BoardOf(state);
+  board.fault.clear();
+  try {
+    work();
+  } catch (const Error& fault) {
+    board.fault = fault.what();
+  }
+  board.is_stale = true;
+}
+
+void ReadRows(EditorState& state, StartBoard& board) {
+  LessonRecords& records = *state.steps.lessons->records;
+  const auto& exercises = state.document().scene.exercises;
+  std::vector<Standing> standings;
+  std::vector<GateRow> opened;
+  board.attempts.clear();
+  if (!records.trainee.empty() && ReachRecords(records)) {
+    standings = StandingsOf(*records.open, records.trainee);
+    opened = GatesOf(*records.open, records.trainee);
+    if (const Exercise* chosen = ChosenExercise(state))
+      board.attempts = AttemptsOf(*records.open, records.trainee, HashOf(*chosen));
+    std::reverse(board.attempts.begin(), board.attempts.end());
+  }
+  board.rows = StandingsFor(exercises, standings, opened);
+}
+
+}  // namespace
+
+void TakeTraineeCode(EditorState& state, const std::string& code) {
+  Try(state, [&] {
+    LessonRecords& records = *state.steps.lessons->records;
+    BoardOf(state).unknown = ChooseTrainee(records, code) ? "" : code;
+    if (records.trainee == code) state.message = "Trainee " + code + ".";
+  });
+}
+
+void AddTraineeCode(EditorState& state) {
+  Try(state, [&] {
+    StartBoard& board = BoardOf(state);
+    AddAndChooseTrainee(*state.steps.lessons->records, board.unknown);
+    state.message = "Trainee " + std::exchange(board.unknown, "") + " was added.";
+  });
+}
+
+void SuggestTraineeCode(EditorState& state) {
+  Try(state, [&] {
+    LessonRecords& records = *state.steps.lessons->records;
+    StartBoard& board = BoardOf(state);
+    if (ReachRecords(records)) board.code = board.unknown = FreeCode(*records.open);
+  });
+}
+
+void ChangeTrainee(EditorState& state) {
+  LeaveTrainee(*state.steps.lessons->records);
+  StartBoard& board = BoardOf(state);
+  board.code.clear();
+  board.unknown.clear();
+  board.is_stale = true;
+}
+
+const StartBoard& FreshStartBoard(EditorState& state) {
+  StartBoard& board = BoardOf(state);
+  const int chosen = state.steps.lessons->chosen;
+  const bool is_other = board.attempts_of != chosen || board.document != state.document_number ||
+                        board.rows.size() != state.document().scene.exercises.size();
+  if (!board.is_stale && !is_other) return board;
+  board.attempts_of = chosen;
+  board.document = state.document_number;
+  try {
+    ReadRows(state, board);
+  } catch (const Error& fault) {
+    board.fault = fault.what();
+  }
+  board.is_stale = false;
+  return board;
+}
+
+}  // namespace arthro::app
