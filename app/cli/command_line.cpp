@@ -3,7 +3,9 @@
 #include <string_view>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include "app/about/about.h"
 #include "app/cli/jobs.h"
 #include "app/cli/run_jobs.h"
 
@@ -12,7 +14,15 @@ namespace arthro::app {
 void DescribeProgram(CLI::App& program) {
   program.name("arthroscene");
   program.description("Arthroscene: arthroscopy training made from surgical video.");
-  program.set_version_flag("--version", "arthroscene " ARTHRO_VERSION);
+  program.set_version_flag(
+      "--version",
+      [&program] {
+        return program.count("--long") > 0 ? LongVersion()
+                                           : fmt::format("arthroscene {}", Version());
+      },
+      "Version of the program.");
+  program.add_flag("--long")->description(
+      "With --version: commit, and version and licence of each library.");
   program.set_help_all_flag("--help-all", "Help of every job.");
   program.footer("`arthroscene JOB --help` says what a job takes.");
   program.require_subcommand(1);

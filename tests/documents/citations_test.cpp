@@ -142,6 +142,22 @@ TEST(Documents, NamedPathsExist) {
   }
 }
 
+// safety.md names the test of each limit as `Suite.Name`.
+TEST(Documents, TestsThatTheSafetyPageNamesExist) {
+  std::string sources;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests"))
+    if (entry.path().extension() == ".cpp") sources += TextOf(entry.path());
+  const std::string page = TextOf(kDocuments / "safety.md");
+  const std::regex name(R"(`([A-Za-z]+)\.([A-Z]\w+)`)");
+  int count = 0;
+  for (std::sregex_iterator found(page.begin(), page.end(), name), end; found != end;
+       ++found, ++count) {
+    const std::string test = "(" + (*found)[1].str() + ", " + (*found)[2].str() + ")";
+    EXPECT_NE(sources.find(test), std::string::npos) << "safety.md names " << found->str();
+  }
+  EXPECT_GT(count, 25) << "the scan found too few names to mean anything";
+}
+
 TEST(Documents, RelativeLinksResolve) {
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
   for (const fs::path& page : DocumentFiles(kRoot)) {

@@ -38,6 +38,7 @@ const Names kAuthoringMayInclude = {"simulation/core", "simulation/scene", "simu
 
 // The same inside app. bench, cli and what lies in app itself may include all of app.
 const std::map<std::string, Names> kAppMayInclude = {
+    {"app/about", {}},
     {"app/plot", {}},
     {"app/records", {}},
     {"app/report", {"app/plot", "app/records"}},
@@ -51,8 +52,8 @@ const std::map<std::string, Names> kAppMayInclude = {
       "app/state", "app/view"}},
     {"app/files", {"app/platform", "app/state", "app/steps"}},
     {"app/editor",
-     {"app/files", "app/panels", "app/platform", "app/recording", "app/state", "app/steps",
-      "app/view"}},
+     {"app/about", "app/files", "app/panels", "app/platform", "app/recording", "app/state",
+      "app/steps", "app/view"}},
 };
 
 // Third-party headers, by how their path begins, that a whole side must not see. Files named

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/about/about.h"
 #include "app/plot/svg_text.h"
 #include "simulation/core/atomic_file.h"
 
@@ -28,7 +29,7 @@ std::string HtmlOf(const BenchReport& report) {
   const auto row = [&](const char* name, const std::string& text) {
     html += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", name, XmlText(text));
   };
-  row("Program", "arthroscene " ARTHRO_VERSION);
+  row("Program", std::string("arthroscene ") + app::Version());
   row("Machine and build", report.machine);
   row("System", report.system);
   row("Date", report.date);
@@ -55,7 +56,7 @@ nlohmann::json JsonOf(const BenchReport& report) {
     sections[section.name] =
         section.fault.empty() ? section.json : nlohmann::json{{"fault", section.fault}};
   return {{"schema", "arthroscene.bench.all/1"},
-          {"version", ARTHRO_VERSION},
+          {"version", app::Version()},
           {"machine", report.machine},
           {"system", report.system},
           {"date", report.date},

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/about/about.h"
 #include "app/cli/command_line.h"
 #include "app/cli/manual/manual_pages.h"
 #include "simulation/core/atomic_file.h"
@@ -19,7 +20,7 @@ int main(int argc, char** argv) {
     std::filesystem::create_directories(folder);
     CLI::App program;
     arthro::app::DescribeProgram(program);
-    for (const auto& [name, text] : arthro::app::ManualPages(program, ARTHRO_VERSION))
+    for (const auto& [name, text] : arthro::app::ManualPages(program, arthro::app::Version()))
       arthro::WriteAtomically(folder / name, text);
     arthro::WriteAtomically(folder / "arthroscene.bash", arthro::app::BashCompletion(program));
   } catch (const std::exception& error) {

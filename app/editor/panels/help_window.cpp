@@ -1,4 +1,4 @@
-// All keys and mouse actions, made from the lists that they are made from.
+// All keys and mouse actions, made from the lists that they are made from, and what the program is.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/about/about.h"
 #include "app/editor/panels/panels.h"
 #include "app/state/command.h"
 #include "app/steps/practice/hand_motion.h"
@@ -26,6 +27,28 @@ bool BeginRows(Ui& ui, const char* name) {
   ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, ui.Px(210));
   ImGui::TableSetupColumn("words", ImGuiTableColumnFlags_WidthStretch);
   return true;
+}
+
+void AboutSection(Ui& ui) {
+  if (!Section(ui, "About this program")) return;
+  Text(ui, fmt::format("Arthroscene {}", Version()));
+  if (const std::string commit = ShortCommit(); !commit.empty())
+    QuietText(ui, fmt::format("Commit {}", commit));
+  Text(ui,
+       "Free software under the AGPL-3.0-or-later, without any warranty. It is for training, and "
+       "no medical device.");
+  Gap(ui);
+  Heading(ui, "Libraries and their licences");
+  if (!ImGui::BeginTable("libraries", 3)) return;
+  for (const BuiltWith& own : Libraries()) {
+    ImGui::TableNextRow();
+    for (const char* words : {own.name, own.version, own.licence}) {
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(words);
+    }
+  }
+  ImGui::EndTable();
+  QuietText(ui, "The texts of the licences are in share/arthroscene/built-with.txt.");
 }
 
 }  // namespace
@@ -112,6 +135,8 @@ void HelpWindow(Ui& ui, EditorState& state) {
     KeyRow(ui, "?", "This page");
     ImGui::EndTable();
   }
+  Gap(ui);
+  AboutSection(ui);
   ImGui::EndChild();
 }
 

@@ -1,0 +1,12 @@
+# Joins the copyright files of the Debian packages PACKAGES into OUTPUT. A package that is not installed is named.
+set(text "")
+foreach(package IN LISTS PACKAGES)
+  string(APPEND text "======== ${package} ========\n")
+  if(EXISTS /usr/share/doc/${package}/copyright)
+    file(READ /usr/share/doc/${package}/copyright copyright)
+    string(APPEND text "${copyright}\n")
+  else()
+    string(APPEND text "The text is in the library's own sources.\n\n")
+  endif()
+endforeach()
+file(WRITE ${OUTPUT} "${text}")
