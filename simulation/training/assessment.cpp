@@ -16,13 +16,6 @@ const char* Better(const Metric& metric) { return metric.is_more_better ? "more"
 
 }  // namespace
 
-std::vector<std::string> SurfaceNames(const Scene& scene) {
-  std::vector<std::string> names;
-  for (int i = 0; i <= static_cast<int>(scene.tissues.size()); ++i)
-    names.push_back(ContactName(i, scene));
-  return names;
-}
-
 Assessment AssessFrames(std::span<const AttemptFrame> frames, const Scene& scene,
                         const MetricLimits& limits) {
   Assessment assessment;

@@ -16,9 +16,6 @@ struct Assessment {
   std::vector<MetricValue> values;
 };
 
-// Names of the surfaces that tools touch, in the order of ToolFrame::contact.
-std::vector<std::string> SurfaceNames(const Scene& scene);
-
 // Replays a recording in the scene and measures them. Forces on deformable tissue are
 // those of the replay, which steps the tissue on a fixed clock, not those of the practice itself.
 Assessment Assess(const LoadedScene& loaded, const Recording& recording,

@@ -37,5 +37,6 @@ std::string OpenHapticsDevices::detail(std::size_t) const { return kNoOpenHaptic
 bool OpenHapticsDevices::is_open(std::size_t) const noexcept { return false; }
 long OpenHapticsDevices::frames(std::size_t) const noexcept { return 0; }
 void OpenHapticsDevices::Release() noexcept {}
+bool OpenHapticsDevices::IsReleased() const noexcept { return true; }
 
 }  // namespace arthro::simulation

@@ -1,4 +1,5 @@
-// Names of the surfaces of a scene as a tool's contact counts them: the backdrop, then each tissue.
+// Names of the surfaces of a scene in the order of ToolFrame::contact: the backdrop, then each
+// tissue.
 #pragma once
 
 #include <string>

@@ -160,7 +160,7 @@ TEST(Replay, ReportsTheRemovedVolumePerRegion) {
   loaded.scene.tissues.emplace_back().name = "labrum";
   ReplayReport report;
   report.tissues.resize(2);
-  report.tissues[0].cut = {6e-9, 1, 0, 0, 3, {1e-9, 2e-9, 3e-9}};
+  report.tissues[0].cut = {6e-9, 1, 0, 0, 3, {1e-9, 2e-9, 3e-9}, {}};
   report.tissues[1].tissue = 1;
   const auto json = nlohmann::json::parse(ReportText(report, loaded.scene)).at("tissues");
   const auto& parts = json.at("meniscus").at("removed_mm3_by_region");
