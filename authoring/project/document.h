@@ -10,6 +10,14 @@
 namespace arthro::authoring {
 
 struct Document : LoadedScene {
+  // Compiled once, in document.cpp, since most sources copy scenes.
+  Document();
+  Document(const Document&);
+  Document(Document&&) noexcept;
+  Document& operator=(const Document&);
+  Document& operator=(Document&&) noexcept;
+  ~Document();
+
   DepthOptions depth_options;
   // Strokes that mended the depth map, in order; null: none. The map holds their effect.
   SharedStrokes depth_strokes;

@@ -164,6 +164,14 @@ struct RigInFile {
 inline constexpr const char* kContactWords[] = {"none", "backdrop"};
 
 struct Tissue {
+  // Compiled once, in scene.cpp, since most sources copy scenes.
+  Tissue();
+  Tissue(const Tissue&);
+  Tissue(Tissue&&) noexcept;
+  Tissue& operator=(const Tissue&);
+  Tissue& operator=(Tissue&&) noexcept;
+  ~Tissue();
+
   std::string name;
   std::filesystem::path surface;      // in the tissue's own frame
   std::filesystem::path mesh;         // empty: it does not deform as a volume
@@ -177,7 +185,7 @@ struct Tissue {
   bool is_implicit = false;
   glm::dvec3 colour{0.93, 0.90, 0.84};  // linear RGB
   AssetRights rights;
-  friend bool operator==(const Tissue&, const Tissue&) = default;
+  friend bool operator==(const Tissue&, const Tissue&);
   template <class V>
   void Visit(V&& v) {
     v("name", name, Name{kContactWords, "force records use for something else", true}, "",
@@ -219,6 +227,14 @@ struct Instrument {
 };
 
 struct Scene {
+  // Compiled once, in scene.cpp, since most sources copy scenes.
+  Scene();
+  Scene(const Scene&);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(const Scene&);
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
+
   std::string title, author;
   BodySide side = BodySide::kUnknown;
   Backdrop backdrop;
@@ -230,7 +246,7 @@ struct Scene {
   std::vector<Exercise> exercises;
   // Top-level keys of other tools: key ("x-…") to JSON text, saved unchanged.
   std::map<std::string, std::string> extensions;
-  friend bool operator==(const Scene&, const Scene&) = default;
+  friend bool operator==(const Scene&, const Scene&);
   template <class V>
   void Visit(V&& v) {
     v("title", title, Any{}, "", "Title of the scene.");

@@ -22,6 +22,7 @@
 #include "authoring/panorama/preparation/prepare.h"
 #include "simulation/core/process_cost.h"
 #include "tests/authoring/panorama/pairs/faint_scene.h"
+#include "tests/support/build_paths.h"
 
 using namespace arthro;
 using namespace arthro::authoring;

@@ -25,6 +25,7 @@
 #include "simulation/tissue/contact/embedded_skin.h"
 #include "simulation/tissue/solver/implicit_solver.h"
 #include "tests/benchmark/bench_report.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro {
 namespace {

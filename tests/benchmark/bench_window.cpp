@@ -10,6 +10,7 @@
 
 #include "simulation/scene/image_io.h"
 #include "tests/benchmark/bench_report.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/run_window.h"
 #include "tests/support/small_scene.h"
 

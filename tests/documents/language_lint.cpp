@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/documents/language_rules.h"
+#include "tests/support/build_paths.h"
 
 int main(int argc, char** argv) {
   std::vector<std::string> paths(argv + 1, argv + argc);

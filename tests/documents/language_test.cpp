@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/documents/language_rules.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::test {
 namespace {

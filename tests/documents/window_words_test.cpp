@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/documents/source_text.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::test {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "tests/documents/source_text.h"
 #include "tests/documents/window_words.h"
+#include "tests/support/build_paths.h"
 
 int main(int argc, char** argv) {
   const std::string table = argc > 1 ? argv[1] : ARTHRO_SOURCE_DIR "/resources/languages/de.po";

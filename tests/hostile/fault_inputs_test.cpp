@@ -13,6 +13,7 @@
 #include "tests/hostile/child_run.h"
 #include "tests/hostile/refusal.h"
 #include "tests/hostile/tet_block.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 

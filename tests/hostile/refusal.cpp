@@ -7,6 +7,7 @@
 
 #include "tests/hostile/child_run.h"
 #include "tests/hostile/complaints.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::test {

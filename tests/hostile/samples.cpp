@@ -14,6 +14,7 @@
 #include "simulation/scene/json/lens_io.h"
 #include "tests/authoring/panorama/tiny_clip.h"
 #include "tests/hostile/tet_block.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/small_scene.h"
 
 namespace arthro::test {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "simulation/scene/image_io.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::test {
 namespace {

@@ -8,6 +8,7 @@
 #include <string>
 #include <sys/wait.h>
 
+#include "tests/support/build_paths.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::test {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "simulation/core/atomic_file.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::test {
 

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "tests/support/build_paths.h"
+
 #define ARTHRO_REQUIRE_SHARED(variable, relative)                                     \
   const std::filesystem::path variable =                                              \
       std::filesystem::path(ARTHRO_SOURCE_DIR).parent_path() / "shared" / (relative); \

@@ -149,6 +149,14 @@ struct Criterion {
 };
 
 struct Exercise {
+  // Compiled once, in exercise.cpp, since most sources copy scenes.
+  Exercise();
+  Exercise(const Exercise&);
+  Exercise(Exercise&&) noexcept;
+  Exercise& operator=(const Exercise&);
+  Exercise& operator=(Exercise&&) noexcept;
+  ~Exercise();
+
   std::string id;
   int version = 1;  // raised by an edit
   std::string title, brief;
@@ -162,7 +170,7 @@ struct Exercise {
   std::vector<AvoidZone> avoid;
   ExerciseLimits limits;
   std::vector<Criterion> criteria;
-  friend bool operator==(const Exercise&, const Exercise&) = default;
+  friend bool operator==(const Exercise&, const Exercise&);
   template <class V>
   void Visit(V&& v) {
     v("id", id, Name{}, "", "Short name of the exercise.");

@@ -4,6 +4,13 @@
 
 namespace arthro {
 
+LoadedScene::LoadedScene() = default;
+LoadedScene::LoadedScene(const LoadedScene&) = default;
+LoadedScene::LoadedScene(LoadedScene&&) noexcept = default;
+LoadedScene& LoadedScene::operator=(const LoadedScene&) = default;
+LoadedScene& LoadedScene::operator=(LoadedScene&&) noexcept = default;
+LoadedScene::~LoadedScene() = default;
+
 void SetDepth(LoadedScene& loaded, std::shared_ptr<const DepthMap> depth) {
   if (depth && depth == loaded.depth) return;
   loaded.depth = std::move(depth);

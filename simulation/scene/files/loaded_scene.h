@@ -47,6 +47,14 @@ struct AssetFile {
 };
 
 struct LoadedScene {
+  // Compiled once, in loaded_scene.cpp, since most sources copy scenes.
+  LoadedScene();
+  LoadedScene(const LoadedScene&);
+  LoadedScene(LoadedScene&&) noexcept;
+  LoadedScene& operator=(const LoadedScene&);
+  LoadedScene& operator=(LoadedScene&&) noexcept;
+  ~LoadedScene();
+
   Scene scene;
   std::shared_ptr<const ColourImage> panorama;  // null: none yet
   std::shared_ptr<const DepthMap> depth;        // same size as the panorama; null: a bare sphere

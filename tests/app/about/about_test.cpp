@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/input_file.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::app {
 namespace {

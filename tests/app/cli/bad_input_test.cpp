@@ -7,6 +7,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/image_io.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/wavy_picture.h"

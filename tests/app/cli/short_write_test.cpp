@@ -12,6 +12,7 @@
 #include "simulation/scene/json/lens_io.h"
 #include "tests/app/cli/job_inputs.h"
 #include "tests/authoring/panorama/tiny_clip.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/round_lens.h"
 #include "tests/support/run_program.h"
 #include "tests/support/shapes.h"

@@ -26,6 +26,7 @@
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/json/lens_io.h"
 #include "tests/app/commands/settle.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::app {

@@ -14,6 +14,7 @@
 #include "simulation/scene/json/lens_io.h"
 #include "simulation/scope/window_lens.h"
 #include "tests/app/commands/settle.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 

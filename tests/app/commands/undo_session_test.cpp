@@ -23,6 +23,7 @@
 #include "simulation/scene/files/scene_files.h"
 #include "simulation/scene/json/scene_json.h"
 #include "tests/app/commands/settle.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 

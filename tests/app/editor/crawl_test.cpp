@@ -14,6 +14,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "authoring/project/document_io.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/measured_scene.h"
 #include "tests/support/run_window.h"
 #include "tests/support/shared_data.h"

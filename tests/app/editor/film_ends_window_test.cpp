@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/build_paths.h"
 #include "tests/support/film_frames.h"
 #include "tests/support/run_window.h"
 #include "tests/support/small_scene.h"

@@ -8,6 +8,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/json/rig_io.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/moved_rig.h"
 #include "tests/support/run_window.h"
 #include "tests/support/small_scene.h"

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/scene/files/scene_io.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/own_display.h"
 #include "tests/support/run_window.h"
 #include "tests/support/small_scene.h"

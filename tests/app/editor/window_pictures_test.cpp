@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/scene/image_io.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/compare_pictures.h"
 #include "tests/support/run_window.h"
 

@@ -14,6 +14,7 @@
 #include "app/records/exchange/xapi.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/sample_attempts.h"
 #include "tests/support/schema_fault.h"
 #include "tests/support/temp_folder.h"

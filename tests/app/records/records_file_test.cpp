@@ -5,6 +5,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/sample_attempts.h"
 #include "tests/support/schema_fault.h"
 #include "tests/support/temp_folder.h"

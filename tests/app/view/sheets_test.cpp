@@ -11,6 +11,7 @@
 
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/compare_pictures.h"
 
 namespace arthro::test {

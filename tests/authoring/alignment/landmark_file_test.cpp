@@ -6,6 +6,7 @@
 #include "authoring/alignment/align_report.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/schema_fault.h"
 
 namespace arthro::authoring {

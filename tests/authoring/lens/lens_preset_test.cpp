@@ -6,6 +6,7 @@
 
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::authoring {
 namespace {

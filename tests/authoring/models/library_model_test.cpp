@@ -18,6 +18,7 @@
 #include "authoring/tissue/tetrahedra/mesh_budget.h"
 #include "simulation/core/error.h"
 #include "simulation/tissue/body/tissue_preset.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::authoring {
 namespace {

@@ -16,6 +16,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::authoring {

@@ -14,6 +14,7 @@
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/mesh/mesh_io.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temp_folder.h"
 

@@ -8,6 +8,7 @@
 
 #include "authoring/tissue/surface/surface_simplify.h"
 #include "simulation/core/error.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::authoring {

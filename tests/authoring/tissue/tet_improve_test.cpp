@@ -14,6 +14,7 @@
 #include "authoring/tissue/surface/surface_simplify.h"
 #include "authoring/tissue/tetrahedra/tet_quality.h"
 #include "authoring/tissue/tetrahedra/tetrahedralize.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::authoring {

@@ -12,6 +12,7 @@
 #include "authoring/tissue/tetrahedra/tetrahedralize.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
 

@@ -16,6 +16,7 @@
 #include "authoring/tissue/surface/surface_topology.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/mesh/mesh_io.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/shapes.h"
 #include "tests/support/shared_data.h"
 

@@ -13,6 +13,7 @@
 #include "authoring/tissue/tetrahedra/mesh_budget.h"
 #include "authoring/tissue/tetrahedra/tetrahedralize.h"
 #include "simulation/core/error.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::authoring {

@@ -16,6 +16,7 @@
 #include "simulation/practice/replay.h"
 #include "simulation/practice/scripted_device.h"
 #include "simulation/scene/files/scene_io.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::simulation {
 namespace {

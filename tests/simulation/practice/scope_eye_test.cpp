@@ -15,6 +15,7 @@
 #include "simulation/practice/session.h"
 #include "simulation/scene/files/scene_io.h"
 #include "tests/simulation/practice/hand.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {

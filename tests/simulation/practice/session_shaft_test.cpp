@@ -11,6 +11,7 @@
 #include "simulation/practice/shaft_notice.h"
 #include "simulation/scene/files/scene_io.h"
 #include "tests/simulation/practice/hand.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::simulation {
 namespace {

@@ -15,6 +15,7 @@
 #include "simulation/tissue/cut/cutters.h"
 #include "tests/simulation/practice/hand.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {

@@ -13,6 +13,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro {
 namespace {

@@ -15,6 +15,7 @@
 #include "simulation/device/driver/wooden_model.h"
 #include "simulation/device/hid/hid_node.h"
 #include "simulation/device/openhaptics/openhaptics_devices.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro {

@@ -10,6 +10,7 @@
 #include "simulation/core/error.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/mesh/mesh_io.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/example_scene.h"
 #include "tests/support/temp_folder.h"
 

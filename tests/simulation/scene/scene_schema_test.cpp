@@ -13,6 +13,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/json/scene_json.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/example_scene.h"
 
 namespace arthro {

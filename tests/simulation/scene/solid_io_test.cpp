@@ -12,6 +12,7 @@
 #include "simulation/core/temporary_folder.h"
 #include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/scene/solids/solid_function.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro {
 namespace {

@@ -8,6 +8,7 @@
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/json/exercise_json.h"
 #include "simulation/training/score/criteria.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::simulation {
 namespace {

@@ -14,6 +14,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/image_io.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/knee_picture.h"
 #include "tests/support/run_program.h"
 

@@ -11,6 +11,7 @@
 #include "simulation/device/log/log_replay.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scope/rod_pose.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/film_frames.h"
 #include "tests/support/run_program.h"
 #include "tests/support/small_scene.h"

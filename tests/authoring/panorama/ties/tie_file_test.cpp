@@ -4,6 +4,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::authoring {
 namespace {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/atomic_file.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::simulation {
 namespace {

@@ -15,6 +15,7 @@
 #include "simulation/practice/hands/practice.h"
 #include "simulation/scene/json/rig_io.h"
 #include "simulation/scope/rod_pose.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/fake_openhaptics.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"

@@ -10,6 +10,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::simulation {

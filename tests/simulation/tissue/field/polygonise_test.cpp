@@ -14,6 +14,7 @@
 #include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/tissue/field/cell_patches.h"
 #include "tests/simulation/tissue/field/closed_manifold.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::simulation {
 namespace {

@@ -13,6 +13,7 @@
 #include "simulation/core/process_cost.h"
 #include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
