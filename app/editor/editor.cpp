@@ -227,7 +227,7 @@ class Editor {
   static double Now() { return Seconds(Clock::now().time_since_epoch()).count(); }
 
   bool Busy() const {
-    return HasWork(state_) ||
+    return HasWork(state_) || pictures_.busy() ||
            (state_.steps.practice->film && state_.steps.practice->film->is_ending());
   }
 
@@ -238,6 +238,7 @@ class Editor {
     const double step = ImGui::GetIO().DeltaTime;
     TakeNews(state_, news);
     if (FinishWork(state_)) last_event_ = now;
+    if (pictures_.Collect()) last_event_ = now;
     RunShortcuts(state_);
     if (state_.dialogs.empty() && !ShowsStartPage(state_) && !ShowsPanoramaBoard(state_) &&
         !ShowsDepthBoard(state_))

@@ -213,15 +213,17 @@ ArthroscopicView::~ArthroscopicView() {
 }
 
 void ArthroscopicView::SetBackdrop(const ColourImage& panorama, const DepthMap& depth,
-                                   const Backdrop& backdrop, const DepthMap& sigma) {
+                                   const Backdrop& backdrop, const DepthMap& sigma,
+                                   const DrawnRelief* made) {
   parts_->window->GetState()->Reset();
-  parts_->notice = parts_->backdrop->Upload(parts_->window, panorama, depth, backdrop, sigma);
+  parts_->notice = parts_->backdrop->Upload(parts_->window, panorama, depth, backdrop, sigma, made);
   parts_->ForgetLight();
 }
 
-void ArthroscopicView::SetDepth(const DepthMap& depth, const DepthMap& sigma) {
+void ArthroscopicView::SetDepth(const DepthMap& depth, const DepthMap& sigma,
+                                const DrawnRelief* made) {
   parts_->window->GetState()->Reset();
-  parts_->backdrop->UploadDepth(parts_->window, depth, sigma);
+  parts_->backdrop->UploadDepth(parts_->window, depth, sigma, made);
 }
 
 bool ArthroscopicView::SetGeometry(const Backdrop& backdrop) {

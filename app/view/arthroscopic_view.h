@@ -23,6 +23,8 @@
 
 namespace arthro::app {
 
+struct DrawnRelief;
+
 class ArthroscopicView {
  public:
   ArthroscopicView();
@@ -33,11 +35,13 @@ class ArthroscopicView {
 
   // An empty `depth` gives the bare sphere. notice() says what could not be shown as given.
   // `sigma`: standard error of the depth map, of its size; the relief is drawn without the noise
-  // that it explains. Empty: not known.
+  // that it explains. Empty: not known. `made`: relief of these maps that was made beside the
+  // window (backdrop/drawn_relief.h); null: it is made here.
   void SetBackdrop(const ColourImage& panorama, const DepthMap& depth, const Backdrop& backdrop,
-                   const DepthMap& sigma = {});
+                   const DepthMap& sigma = {}, const DrawnRelief* made = nullptr);
   // Replaces the relief of the same panorama, for a live preview: only the relief is uploaded.
-  void SetDepth(const DepthMap& depth, const DepthMap& sigma = {});
+  void SetDepth(const DepthMap& depth, const DepthMap& sigma = {},
+                const DrawnRelief* made = nullptr);
   // Moves the same panorama and relief. Returns false, and does nothing, when the panorama would
   // begin or cease to cover a full turn: call SetBackdrop then.
   bool SetGeometry(const Backdrop& backdrop);

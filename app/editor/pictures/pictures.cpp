@@ -132,8 +132,33 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   const bool same_panorama = panorama == panorama_ && panorama;
   const bool same_depth = depth == depth_ && sigma == sigma_;
   const bool same_scene = panorama == panorama_ && same_depth && same_place;
-  if (same_scene && same_reach) return;
+  if (same_scene && same_reach) return TakeQuietRelief();
+  Backdrop shown = WithKnownLight(wanted, relief);
+  if (as_filmed) shown.relight = 0;
+  if (preview)
+    shown.projection =
+        Shrunk(shown.projection, static_cast<double>(document.panorama->width) / panorama->width);
+  // The panorama is by far the most to upload; a slider changes only its place or the relief.
+  const bool is_kept = same_scene || (same_panorama && scope_.SetGeometry(shown));
+  const bool is_other_relief = !is_kept || !same_depth;
+  std::shared_ptr<const DrawnRelief> made;
+  if (is_other_relief && panorama && depth && sigma) {
+    const ReliefWork::Source source{depth, sigma, {panorama->width, panorama->height}, shown};
+    made = relief_work_.Find(source);
+    const bool is_awaited = !made;
+    // The last relief of this panorama stays until the noise of the new one is removed.
+    if (is_awaited && shown_of_ == document.panorama && same_place && same_reach) return;
+    noisy_.reset();
+    if (is_awaited) {
+      noisy_ = source;
+      made = std::make_shared<const DrawnRelief>(
+          MakeDrawnRelief(source.panorama_size, *depth, *sigma, shown, ReliefNoise::kKept));
+    }
+  } else if (is_other_relief) {
+    noisy_.reset();
+  }
   panorama_ = panorama;
+  shown_of_ = document.panorama;
   depth_ = depth;
   sigma_ = sigma;
   backdrop_ = wanted;
@@ -142,21 +167,24 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   changed_ = true;
   if (!panorama) return;
   const ColourImage& coloured = reach && !preview ? *reach : *panorama;
-  Backdrop shown = WithKnownLight(backdrop_, relief);
-  if (as_filmed) shown.relight = 0;
-  if (preview)
-    shown.projection =
-        Shrunk(shown.projection, static_cast<double>(document.panorama->width) / panorama->width);
-  // The panorama is by far the most to upload; a slider changes only its place or the relief.
-  const bool is_kept = same_scene || (same_panorama && scope_.SetGeometry(shown));
   if (!is_kept)
-    scope_.SetBackdrop(*panorama, relief, shown, OrEmpty(sigma));
+    scope_.SetBackdrop(*panorama, relief, shown, OrEmpty(sigma), made.get());
   else if (!same_depth)
-    scope_.SetDepth(relief, OrEmpty(sigma));
+    scope_.SetDepth(relief, OrEmpty(sigma), made.get());
   if (is_kept && same_reach)
     overview_.SetRelief(relief, shown);
   else
     overview_.SetBackdrop(coloured, relief, shown);
+}
+
+// The relief that was shown with its noise is shown without it once that is removed.
+void Pictures::TakeQuietRelief() {
+  if (!noisy_) return;
+  const auto made = relief_work_.Find(*noisy_);
+  if (!made) return;
+  noisy_.reset();
+  scope_.SetDepth(OrEmpty(depth_), OrEmpty(sigma_), made.get());
+  changed_ = true;
 }
 
 void Pictures::TakeTissues(const EditorState& state) {

@@ -18,6 +18,7 @@
 #include "app/steps/budget/frame_budget.h"
 #include "app/steps/tissue/cut/cut_skins.h"
 #include "app/view/arthroscopic_view.h"
+#include "app/view/backdrop/relief_work.h"
 #include "app/view/live_tissues.h"
 #include "app/view/overview/overview.h"
 #include "authoring/tissue/surface_faults.h"
@@ -30,6 +31,10 @@ class Pictures {
   // machine gets a coarser picture while it moves.
   explicit Pictures(bool steady) : steady_(steady) {}
 
+  // Once a frame, before the pictures: takes over what was made beside the window.
+  bool Collect() { return relief_work_.Collect(); }
+  // Something is being made beside the window.
+  bool busy() const { return relief_work_.busy(); }
   // Draws the scope's picture to fill `size` pixels a side, at `seconds` of the window's clock.
   // True when it is not the final one yet: call again soon.
   bool DrawScope(const EditorState& state, int size, double seconds);
@@ -73,6 +78,7 @@ class Pictures {
  private:
   void Take(const EditorState& state);
   void TakeBackdrop(const EditorState& state);
+  void TakeQuietRelief();
   void TakeTissues(const EditorState& state);
   void TakeCuts(const authoring::Document& document);
   void ShowPlaces(const EditorState& state);
@@ -121,7 +127,10 @@ class Pictures {
   std::chrono::steady_clock::time_point overview_drawn_{};
   // Contents of the view.
   std::shared_ptr<const ColourImage> panorama_;
+  std::shared_ptr<const ColourImage> shown_of_;  // panorama of the document at that time
   std::shared_ptr<const DepthMap> depth_, sigma_;
+  ReliefWork relief_work_;
+  std::optional<ReliefWork::Source> noisy_;   // relief that is awaited without its noise
   std::shared_ptr<const ColourImage> reach_;  // null: the panorama as it is
   Backdrop backdrop_;
   bool as_filmed_ = false;

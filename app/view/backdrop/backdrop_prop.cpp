@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -20,8 +19,6 @@
 #include "app/view/drawing/shader_text.h"
 #include "app/view/exposure/automatic_gain.h"
 #include "simulation/core/units.h"
-#include "simulation/haptics/relief/relief_smoothing.h"
-#include "simulation/scene/backdrop/relief_shares.h"
 #include "simulation/scene/medium.h"
 
 namespace arthro::app {
@@ -39,28 +36,6 @@ constexpr double kGlint = 0.30;
 // Largest second difference of the corners' distances, over the distance, at which the relief of a
 // cell counts as smooth.
 constexpr double kSmoothBend = 0.02;
-
-// Further smoothing of the slopes for the lamp, over that which the noise asks for: a glint shows a
-// third of the slope that a hand feels.
-constexpr double kLampBlur = 2;
-
-// Least height of a step that is drawn with a side, over the median standard error of the relief:
-// five standard deviations of the difference of two texels, as outlines have (relief_outlines.cpp).
-constexpr double kSideOfError = 5 * std::numbers::sqrt2;
-
-// Median smoothing that the noise of a depth map asks for, as a standard deviation in its pixels at
-// the radius of the backdrop; 0 where none is known [method.md, Backdrop force].
-double SmoothingPx(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop) {
-  const double error = SharesOf(depth, sigma, {}).median_sigma.value_or(0.0);
-  const simulation::NoiseLimits limits;
-  const double smoothing =
-      std::min(limits.widest, error / (2 * std::numbers::sqrt2 * limits.slope));
-  const Projection& projection = backdrop.projection;
-  const double px_per_rad = projection.type == ProjectionType::kEquirectangular
-                                ? DegreesFromRadians(projection.px_per_deg)
-                                : projection.focal_px;
-  return smoothing * px_per_rad / backdrop.radius;
-}
 
 // The view in the frame of the projection's formulas, which the portal's is turned into about +z
 // (Projection::roll). The sphere is the same in both.
@@ -95,7 +70,7 @@ double BackdropProp::light_reach() const { return kLightReach * backdrop_.radius
 
 std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImage& panorama,
                                  const DepthMap& depth, const Backdrop& backdrop,
-                                 const DepthMap& sigma) {
+                                 const DepthMap& sigma, const DrawnRelief* made) {
   backdrop_ = backdrop;
   panorama_size_ = {panorama.width, panorama.height};
   wraps_ = IsWholeTurn(backdrop.projection, panorama.width);
@@ -119,7 +94,7 @@ std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImag
   panorama_->SetMinificationFilter(vtkTextureObject::LinearMipmapLinear);
   panorama_->Bind();
   glGenerateMipmap(GL_TEXTURE_2D);
-  UploadDepth(window, depth, sigma);
+  UploadDepth(window, depth, sigma, made);
   if (reduction_ == 1) return {};
   return fmt::format(
       "the panorama of {}x{} pixels is drawn {} times smaller: this graphics card takes at most "
@@ -128,32 +103,26 @@ std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImag
 }
 
 void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth,
-                               const DepthMap& sigma) {
-  const bool is_known = !sigma.empty() && !depth.empty();
-  const DepthMap quiet = is_known ? simulation::WithoutNoise(depth, sigma, backdrop_) : DepthMap();
-  ReliefTexture relief = MakeReliefTexture(panorama_size_, is_known ? quiet : depth, wraps_, sigma);
-  Fill(*relief_, window, relief.width, relief.height, 4, VTK_FLOAT, relief.texels.data());
-  if (backdrop_.relight > 0) {
-    const BroadSlopes broad = MakeBroadSlopes(
-        relief, wraps_,
-        kLampBlur * SmoothingPx(depth, sigma, backdrop_) * relief.width / std::max(depth.width, 1));
-    Fill(*slopes_, window, broad.width, broad.height, 3, VTK_FLOAT, broad.slopes.data());
+                               const DepthMap& sigma, const DrawnRelief* made) {
+  if (made == nullptr) {
+    const DrawnRelief relief = MakeDrawnRelief(panorama_size_, depth, sigma, backdrop_);
+    UploadDepth(window, depth, sigma, &relief);
+    return;
   }
-  is_noisy_ = is_known;
-  least_side_ =
-      is_known ? kSideOfError * SharesOf(depth, sigma, {}).median_sigma.value_or(0.0) : 0.0;
-  unsearched_ = std::move(relief);
-  SetRelief(grid_, depth);
-}
-
-void BackdropProp::PrepareSearch(vtkOpenGLRenderWindow* window) {
-  if (unsearched_.texels.empty()) return;
-  const ReliefCeiling ceiling = MakeReliefCeiling(std::exchange(unsearched_, {}), wraps_);
+  const ReliefTexture& relief = made->texture;
+  Fill(*relief_, window, relief.width, relief.height, 4, VTK_FLOAT, relief.texels.data());
+  if (backdrop_.relight > 0)
+    Fill(*slopes_, window, made->slopes.width, made->slopes.height, 3, VTK_FLOAT,
+         made->slopes.slopes.data());
+  const ReliefCeiling& ceiling = made->ceiling;
   Fill(*ceiling_, window, ceiling.width, ceiling.height, 1, VTK_FLOAT, ceiling.relief.data());
   ceiling_->SetMinificationFilter(vtkTextureObject::Nearest);
   ceiling_->SetMagnificationFilter(vtkTextureObject::Nearest);
   block_ = ceiling.block;
   highest_ = *std::max_element(ceiling.relief.begin(), ceiling.relief.end());
+  is_noisy_ = made->is_noisy;
+  least_side_ = made->least_side;
+  SetRelief(grid_, depth);
 }
 
 bool BackdropProp::SetGeometry(const Backdrop& backdrop) {
@@ -200,7 +169,6 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   // A software rasteriser executes both branches of a shader's `if`, so unused parts are not
   // compiled.
   const bool is_equirectangular = backdrop_.projection.type == ProjectionType::kEquirectangular;
-  if (picture_.relief.steps > 0) PrepareSearch(window);
   const bool has_relief = highest_ > 0.0 && picture_.relief.steps > 0;
   const bool has_cells = has_relief && picture_.relief.cell > 1;
   const bool has_lens = !simulation::IsEquisolid(picture_.lens);

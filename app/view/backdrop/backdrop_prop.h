@@ -12,7 +12,7 @@
 #include <vtkNew.h>
 #include <vtkProp.h>
 
-#include "app/view/backdrop/backdrop_texture.h"
+#include "app/view/backdrop/drawn_relief.h"
 #include "app/view/backdrop/relief_cells.h"
 #include "app/view/drawing/lens_model.h"
 #include "app/view/drawing/picture.h"
@@ -31,11 +31,14 @@ class BackdropProp : public vtkProp {
 
   // Uploads both pictures; the window's context must be current and initialised. Returns a sentence
   // when the panorama had to be reduced. `sigma`: standard error of the depth map, of its size; the
-  // relief is drawn without the noise that it explains. Empty: not known.
+  // relief is drawn without the noise that it explains. Empty: not known. `made`: relief of these
+  // maps that was made before; null: it is made here.
   std::string Upload(vtkOpenGLRenderWindow* window, const ColourImage& panorama,
-                     const DepthMap& depth, const Backdrop& backdrop, const DepthMap& sigma);
+                     const DepthMap& depth, const Backdrop& backdrop, const DepthMap& sigma,
+                     const DrawnRelief* made);
   // Replaces the relief of the present panorama: a fraction of the work.
-  void UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth, const DepthMap& sigma);
+  void UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth, const DepthMap& sigma,
+                   const DrawnRelief* made);
   // Moves the present panorama; uploads nothing. Returns false, and does nothing, when it would
   // begin or cease to cover a full turn.
   bool SetGeometry(const Backdrop& backdrop);
@@ -71,8 +74,6 @@ class BackdropProp : public vtkProp {
   void SetUniforms(vtkShaderProgram& program) const;
   // Centre and scale of the projection, texture units.
   std::pair<glm::dvec2, glm::dvec2> ProjectionInTexture() const;
-  // Prepares the textures of the relief search, for the first picture that searches.
-  void PrepareSearch(vtkOpenGLRenderWindow* window);
   void Fill(vtkTextureObject& texture, vtkOpenGLRenderWindow* window, int width, int height,
             int channels, int type, const void* data) const;
 
@@ -86,9 +87,8 @@ class BackdropProp : public vtkProp {
   bool is_in_contact_ = false;
   bool is_noisy_ = false;  // the relief has a known standard error
   double least_side_ = 0;  // m, height of the lowest step that has a side; 0: no limit
-  ReliefTexture unsearched_;
-  double highest_ = 0;  // maximum of the relief, m
-  int block_ = 1;       // texels per block of the relief's maxima
+  double highest_ = 0;     // maximum of the relief, m
+  int block_ = 1;          // texels per block of the relief's maxima
   LightGrid grid_;
   FootageLight light_;
   double gain_ = 1;
