@@ -33,6 +33,12 @@ constexpr double kLightReach = 0.55;
 // Sheen of the fluid film straight from the lamp.
 constexpr double kGlint = 0.30;
 
+// Steps along the ray of a corner of cells, over those of a pixel's own search: a corner decides
+// for all pixels of four cells, and is one ray for each of them.
+constexpr double kCornerSteps = 3;
+// Steps within the range of a cell, over the same: a crest that is thinner than a step is missed.
+constexpr double kCellSteps = 0.75;
+
 // Largest second difference of the corners' distances, over the distance, at which the relief of a
 // cell counts as smooth.
 constexpr double kSmoothBend = 0.02;
@@ -293,9 +299,10 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   SetUniform(program, "given_leastSide", std::max(least_side_, kNoLimit) / backdrop_.radius);
   SetUniform(program, "given_highest", highest_ / backdrop_.radius);
   SetUniform(program, "given_blockTexels", block_);
-  SetUniform(program, "given_reliefSteps", double(picture_.relief.steps));
+  const double steps = picture_.relief.steps;
+  SetUniform(program, "given_reliefSteps", picture_.relief.cell > 1 ? kCornerSteps * steps : steps);
   SetUniform(program, "given_cellPixels", double(picture_.relief.cell));
-  SetUniform(program, "given_cellSteps", 0.5 * picture_.relief.steps);
+  SetUniform(program, "given_cellSteps", kCellSteps * steps);
   SetUniform(program, "given_smoothBend", kSmoothBend);
   SetUniform(program, "given_lightReach", light_reach());
   SetUniform(program, "given_gain", gain_);

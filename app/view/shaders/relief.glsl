@@ -45,19 +45,20 @@ float texelsPerRadius(vec3 x, vec3 ray) {
 
 // Returns the first crossing between `near` and `far`, or a value beyond `far` when there is none.
 // The search begins at the sphere of the relief's maximum. A step is a whole block of texels where
-// the ray passes above the block's maximum, and kShortStep of it elsewhere; regula falsi refines
-// the crossing. With isClear nothing stands before `near`, so a place behind the relief there has
-// just been reached (by rounding, where the relief is level at its maximum).
+// the ray passes above the block's maximum, and kShortStep of it elsewhere. It is longer where the
+// steps that remain would not reach `far`. Regula falsi refines the crossing. With isClear nothing
+// stands before `near`, so a place behind the relief there has just been reached (by rounding, where
+// the relief is level at its maximum).
 const float kShortStep = 0.125;  // blocks
 const int kRefinements = 5;
 const float kLeastCut = 0.05, kMostCut = 0.95;  // share of the interval at which it is divided
 float firstBehind(vec3 ray, float b, float near, float far, bool isClear) {
-  float least = (far - near) / reliefSteps;
   float low = near, high = near, gapLow = behind(tip + near * ray), gapHigh = gapLow;
   bool isMet = isClear && gapLow >= 0.0;
   for (float i = 0.0; i < reliefSteps; i += 1.0) {
     low = high;
     gapLow = gapHigh;
+    float least = (far - low) / (reliefSteps - i);
     vec3 x = tip + low * ray;
     float pace = blockTexels / texelsPerRadius(x, ray);
     // To the end of the block, or to the sphere of the block's maximum.
