@@ -13,9 +13,9 @@
 
 namespace arthro::authoring {
 
-// What flatten and brightness fit: their target is one for the whole stroke.
+// Fit of flatten and brightness, whose target is one for the whole stroke.
 struct StrokeSums {
-  glm::dmat3 normal{0.0};  // of the plane's least squares
+  glm::dmat3 normal{0.0};  // normal matrix of the plane's fit
   glm::dvec3 right{0.0};
   int count = 0;
   double weights = 0, heights = 0, greys = 0;

@@ -49,7 +49,7 @@ OuterTaps TapsBetween(const Plane& near, const Plane& heights, const Plane& sigm
 // whole, away from the edges of the part.
 struct Frame {
   int left = 0, top = 0;
-  int width = 0, height = 0;  // of the whole
+  int width = 0, height = 0;  // size of the whole
 };
 Frame WholeOf(const DepthMap& map) { return {0, 0, map.width, map.height}; }
 

@@ -41,7 +41,7 @@ DepthMap WithoutNoise(const DepthMap& depth, const DepthMap& sigma, const Backdr
 // Part of such a map.
 struct QuietPart {
   PixelBounds box;
-  DepthMap relief;  // of the size of the box
+  DepthMap relief;  // size of the box
   int read = 0;     // pixels that were computed
 };
 
