@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -14,7 +13,7 @@ namespace arthro::authoring {
 namespace {
 
 // Indices of segments by tile (row, column). A single point is one segment without a length.
-using SegmentsByTile = std::map<std::pair<int, int>, std::vector<std::size_t>>;
+using SegmentsByTile = std::map<StrokeFootprint::Place, std::vector<std::size_t>>;
 
 glm::dvec2 EndOf(const std::vector<glm::dvec2>& points, std::size_t segment) {
   return points[std::min(segment + 1, points.size() - 1)];
@@ -31,11 +30,12 @@ int TileOf(double pixel, int size) {
   return static_cast<int>(std::floor(std::clamp(pixel, 0.0, size - 1.0) / StrokeTile::kSide));
 }
 
-SegmentsByTile SegmentsOf(const std::vector<glm::dvec2>& points, double radius, int width,
-                          int height) {
+// Segments from the index `first` on.
+SegmentsByTile SegmentsFrom(std::size_t first, const std::vector<glm::dvec2>& points, double radius,
+                            int width, int height) {
   SegmentsByTile tiles;
   const std::size_t count = points.size() > 1 ? points.size() - 1 : points.size();
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = first; i < count; ++i) {
     const glm::dvec2 from = points[i], to = EndOf(points, i);
     const glm::dvec2 low = glm::min(from, to) - radius, high = glm::max(from, to) + radius;
     if (!(high.x >= 0 && high.y >= 0 && low.x <= width - 1 && low.y <= height - 1)) continue;
@@ -48,66 +48,92 @@ SegmentsByTile SegmentsOf(const std::vector<glm::dvec2>& points, double radius, 
 
 }  // namespace
 
-PixelBounds Joined(const PixelBounds& a, const PixelBounds& b) {
-  if (a.is_empty()) return b;
-  if (b.is_empty()) return a;
-  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right),
-          std::max(a.bottom, b.bottom)};
+StrokeFootprint::StrokeFootprint(DepthStroke stroke, int width, int height)
+    : stroke_(std::move(stroke)), radius_(stroke_.radius * width), width_(width), height_(height) {
+  stroke_.points.clear();
 }
 
-PixelBounds Grown(const PixelBounds& box, int margin, int width, int height) {
-  return {std::max(0, box.left - margin), std::max(0, box.top - margin),
-          std::min(width, box.right + margin), std::min(height, box.bottom + margin)};
-}
+std::vector<StrokeFootprint::Place> StrokeFootprint::Add(std::span<const glm::dvec2> points) {
+  std::vector<Place> changed;
+  if (points.empty() || width_ <= 0 || height_ <= 0) return changed;
+  const std::size_t before = points_.size();
+  for (const glm::dvec2& point : points)
+    points_.push_back(point * static_cast<double>(width_) - 0.5);
+  // A first point alone was measured as a segment without a length, which the first real one
+  // replaces.
+  if (before == 1) entries_.clear();
+  const SegmentsByTile segments =
+      SegmentsFrom(before < 2 ? 0 : before - 1, points_, radius_, width_, height_);
 
-StrokeFootprint FootprintOf(const DepthStroke& stroke, int width, int height) {
-  StrokeFootprint footprint;
-  footprint.radius = stroke.radius * width;
-  for (const glm::dvec2& point : stroke.points)
-    footprint.points.push_back(point * static_cast<double>(width) - 0.5);
-  if (footprint.points.empty() || width <= 0 || height <= 0) return footprint;
-
-  const SegmentsByTile segments = SegmentsOf(footprint.points, footprint.radius, width, height);
-  std::vector<const SegmentsByTile::value_type*> entries;
-  for (const auto& entry : segments) entries.push_back(&entry);
-  std::vector<StrokeTile> tiles(entries.size());
-  std::vector<PixelBounds> boxes(entries.size());
-  std::vector<int> touched(entries.size(), 0);
-  ForStripsOfRows(static_cast<int>(entries.size()), [&](int first, int last) {
+  std::vector<std::pair<Entry*, const std::vector<std::size_t>*>> work;
+  for (const auto& [place, of_tile] : segments) {
+    Entry& entry = entries_[place];
+    StrokeTile& tile = entry.tile;
+    tile.x = place.second * StrokeTile::kSide;
+    tile.y = place.first * StrokeTile::kSide;
+    tile.width = std::min(StrokeTile::kSide, width_ - tile.x);
+    tile.height = std::min(StrokeTile::kSide, height_ - tile.y);
+    work.emplace_back(&entry, &of_tile);
+    changed.push_back(place);
+  }
+  ForStripsOfRows(static_cast<int>(work.size()), [&](int first, int last) {
     for (int t = first; t < last; ++t) {
-      const auto at = static_cast<std::size_t>(t);
-      StrokeTile& tile = tiles[at];
-      tile.x = entries[at]->first.second * StrokeTile::kSide;
-      tile.y = entries[at]->first.first * StrokeTile::kSide;
-      tile.width = std::min(StrokeTile::kSide, width - tile.x);
-      tile.height = std::min(StrokeTile::kSide, height - tile.y);
-      tile.weight.reserve(static_cast<std::size_t>(tile.width) *
-                          static_cast<std::size_t>(tile.height));
-      for (int y = tile.y; y < tile.y + tile.height; ++y)
-        for (int x = tile.x; x < tile.x + tile.width; ++x) {
-          double distance2 = std::numeric_limits<double>::infinity();
-          for (const std::size_t i : entries[at]->second) {
-            const glm::dvec2 off =
-                glm::dvec2(x, y) -
-                FootOn(footprint.points[i], EndOf(footprint.points, i), glm::dvec2(x, y));
-            distance2 = std::min(distance2, glm::dot(off, off));
-          }
-          const double share = std::sqrt(distance2) / footprint.radius;
-          const auto weight = static_cast<float>(StrokeWeight(stroke, share));
-          tile.weight.push_back(weight);
-          if (!(weight > 0)) continue;
-          ++touched[at];
-          boxes[at] = Joined(boxes[at], {x, y, x + 1, y + 1});
-        }
+      const auto& [entry, of_tile] = work[static_cast<std::size_t>(t)];
+      Measure(*entry, *of_tile);
     }
   });
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    if (touched[i] == 0) continue;
-    footprint.touched += touched[i];
-    footprint.box = Joined(footprint.box, boxes[i]);
-    footprint.tiles.push_back(std::move(tiles[i]));
-  }
-  return footprint;
+  return changed;
+}
+
+void StrokeFootprint::Measure(Entry& entry, std::span<const std::size_t> segments) const {
+  StrokeTile& tile = entry.tile;
+  const auto size = static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height);
+  entry.distance2.resize(size, std::numeric_limits<double>::infinity());
+  tile.weight.resize(size);
+  tile.box = {};
+  tile.touched = 0;
+  std::size_t i = 0;
+  for (int y = tile.y; y < tile.y + tile.height; ++y)
+    for (int x = tile.x; x < tile.x + tile.width; ++x, ++i) {
+      double& distance2 = entry.distance2[i];
+      for (const std::size_t segment : segments) {
+        const glm::dvec2 off =
+            glm::dvec2(x, y) - FootOn(points_[segment], EndOf(points_, segment), glm::dvec2(x, y));
+        distance2 = std::min(distance2, glm::dot(off, off));
+      }
+      const double share = std::sqrt(distance2) / radius_;
+      tile.weight[i] = static_cast<float>(StrokeWeight(stroke_, share));
+      if (!(tile.weight[i] > 0)) continue;
+      ++tile.touched;
+      tile.box = Joined(tile.box, {x, y, x + 1, y + 1});
+    }
+}
+
+std::vector<const StrokeTile*> StrokeFootprint::Tiles() const {
+  std::vector<const StrokeTile*> tiles;
+  for (const auto& [place, entry] : entries_)
+    if (entry.tile.touched > 0) tiles.push_back(&entry.tile);
+  return tiles;
+}
+
+std::vector<const StrokeTile*> StrokeFootprint::TilesAt(std::span<const Place> places) const {
+  std::vector<const StrokeTile*> tiles;
+  for (const Place& place : places)
+    if (const auto at = entries_.find(place); at != entries_.end() && at->second.tile.touched > 0)
+      tiles.push_back(&at->second.tile);
+  return tiles;
+}
+
+PixelBounds BoxOf(std::span<const StrokeTile* const> tiles) {
+  PixelBounds box;
+  for (const StrokeTile* tile : tiles) box = Joined(box, tile->box);
+  return box;
+}
+
+int TouchedBy(std::span<const StrokeTile* const> tiles) {
+  int touched = 0;
+  for (const StrokeTile* tile : tiles) touched += tile->touched;
+  return touched;
 }
 
 LineFoot NearestOnLine(const std::vector<glm::dvec2>& points, const glm::dvec2& at) {

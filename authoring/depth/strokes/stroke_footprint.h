@@ -3,16 +3,26 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "authoring/depth/strokes/depth_stroke.h"
+#include "simulation/scene/pixel_bounds.h"
 
 namespace arthro::authoring {
+
+using arthro::Grown;
+using arthro::Joined;
+using arthro::PixelBounds;
 
 struct StrokeTile {
   static constexpr int kSide = 64;  // px
   int x = 0, y = 0, width = 0, height = 0;
   std::vector<float> weight;  // 0 to 1, row by row
+  PixelBounds box;            // around the pixels with a weight
+  int touched = 0;            // number of these pixels
 
   float WeightAt(int column, int row) const {
     return weight[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
@@ -20,28 +30,47 @@ struct StrokeTile {
   }
 };
 
-// Half-open rectangle of pixels; empty: nothing.
-struct PixelBounds {
-  int left = 0, top = 0, right = 0, bottom = 0;
-  bool is_empty() const { return left >= right || top >= bottom; }
-  int width() const { return right - left; }
-  int height() const { return bottom - top; }
-};
-// Smallest box around both.
-PixelBounds Joined(const PixelBounds& a, const PixelBounds& b);
-// `margin` px larger on each side, within a map of that size.
-PixelBounds Grown(const PixelBounds& box, int margin, int width, int height);
+// Footprint of a stroke that may grow by further points; a new piece changes only the tiles that it
+// reaches. The part outside the map is left out.
+class StrokeFootprint {
+ public:
+  using Place = std::pair<int, int>;  // row and column of a tile
 
-struct StrokeFootprint {
-  double radius = 0;               // px
-  std::vector<glm::dvec2> points;  // px, centre of the top left pixel at the origin
-  std::vector<StrokeTile> tiles;   // those with a weight above 0, in row order
-  PixelBounds box;                 // around the pixels with a weight
-  int touched = 0;                 // number of these pixels
+  // `stroke`: radius and weights; its points are those that are added.
+  StrokeFootprint(DepthStroke stroke, int width, int height);
+
+  // Adds points of the line, in shares of the panorama's width, and returns the places of the tiles
+  // that may have changed, in row order.
+  std::vector<Place> Add(std::span<const glm::dvec2> points);
+
+  double radius() const { return radius_; }  // px
+  // Centre of the top left pixel at the origin, px.
+  const std::vector<glm::dvec2>& points() const { return points_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  // Tiles with a weight above 0, in row order.
+  std::vector<const StrokeTile*> Tiles() const;
+  // Those of them at these places.
+  std::vector<const StrokeTile*> TilesAt(std::span<const Place> places) const;
+
+ private:
+  struct Entry {
+    StrokeTile tile;
+    std::vector<double> distance2;  // px², of each pixel from the line
+  };
+  void Measure(Entry& entry, std::span<const std::size_t> segments) const;
+
+  DepthStroke stroke_;
+  double radius_ = 0;
+  int width_ = 0, height_ = 0;
+  std::vector<glm::dvec2> points_;
+  std::map<Place, Entry> entries_;
 };
 
-// Footprint on a map of that size; the part outside the map is left out.
-StrokeFootprint FootprintOf(const DepthStroke& stroke, int width, int height);
+// Box around the pixels with a weight, and their number.
+PixelBounds BoxOf(std::span<const StrokeTile* const> tiles);
+int TouchedBy(std::span<const StrokeTile* const> tiles);
 
 // Nearest point of the stroke's line.
 struct LineFoot {

@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "simulation/core/error.h"
 #include "simulation/haptics/relief/plane_filters.h"
 #include "simulation/haptics/relief/relief_steps.h"
 
@@ -44,6 +45,14 @@ OuterTaps TapsBetween(const Plane& near, const Plane& heights, const Plane& sigm
   return taps;
 }
 
+// Place of a map within a larger one, px. Filters of a part give the bytes that they give in the
+// whole, away from the edges of the part.
+struct Frame {
+  int left = 0, top = 0;
+  int width = 0, height = 0;  // size of the whole
+};
+Frame WholeOf(const DepthMap& map) { return {0, 0, map.width, map.height}; }
+
 // Sums of a normalised convolution.
 struct Sums {
   Plane value, mass;
@@ -73,10 +82,11 @@ Plane Ratio(const Sums& sums) {
 class Moments {
  public:
   // `sums`: heights times masses, and masses, of which the first kernel is one pixel wide.
-  Moments(Sums sums, int width, int height)
+  Moments(Sums sums, int width, int height, const Frame& frame)
       : width_(width),
-        centre_x_(0.5f * static_cast<float>(width)),
-        centre_y_(0.5f * static_cast<float>(height)),
+        frame_(frame),
+        centre_x_(0.5f * static_cast<float>(frame.width)),
+        centre_y_(0.5f * static_cast<float>(frame.height)),
         m_(std::move(sums.mass)),
         h_(std::move(sums.value)),
         x_(m_),
@@ -89,8 +99,8 @@ class Moments {
     for (int row = 0; row < height; ++row)
       for (int column = 0; column < width; ++column) {
         const std::size_t i = At(column, row);
-        const float x = static_cast<float>(column) - centre_x_,
-                    y = static_cast<float>(row) - centre_y_;
+        const float x = static_cast<float>(frame_.left + column) - centre_x_,
+                    y = static_cast<float>(frame_.top + row) - centre_y_;
         x_[i] *= x, y_[i] *= y, hx_[i] *= x, hy_[i] *= y;
         xx_[i] *= x * x, xy_[i] *= x * y, yy_[i] *= y * y;
       }
@@ -108,8 +118,8 @@ class Moments {
                 yy = yy_[i] * per_mass - y * y + kOfPixel;
     const float hx = hx_[i] * per_mass - h * x, hy = hy_[i] * per_mass - h * y;
     const float det = xx * yy - xy * xy;
-    const float du = static_cast<float>(column) - centre_x_ - x,
-                dv = static_cast<float>(row) - centre_y_ - y;
+    const float du = static_cast<float>(frame_.left + column) - centre_x_ - x,
+                dv = static_cast<float>(frame_.top + row) - centre_y_ - y;
     if (!(det > 0.0f)) return h;
     return h + ((yy * hx - xy * hy) * du + (xx * hy - xy * hx) * dv) / det;
   }
@@ -120,6 +130,7 @@ class Moments {
            static_cast<std::size_t>(x);
   }
   int width_;
+  Frame frame_;
   float centre_x_, centre_y_;
   Plane m_, h_, x_, y_, xx_, xy_, yy_, hx_, hy_;
 };
@@ -148,6 +159,22 @@ Plane SmoothSigma(const DepthMap& depth, const DepthMap& sigma) {
   return smooth;
 }
 
+// Pixels per metre across the line of sight, the larger of both directions; 0 at the portal.
+double PixelsPerMetre(const Backdrop& backdrop, float height, int x, int y) {
+  const double radius = backdrop.radius - static_cast<double>(height);
+  if (!(radius > 0.0)) return 0.0;
+  const glm::dmat2x3 gradients =
+      PixelGradients(backdrop.projection, radius * DirectionFromPixel(backdrop.projection, {x, y}));
+  return std::sqrt(
+      std::max(glm::dot(gradients[0], gradients[0]), glm::dot(gradients[1], gradients[1])));
+}
+
+// Standard deviation of the smoothing that a standard error asks for, m.
+double SmoothingOf(float sigma, const NoiseLimits& limits) {
+  return std::min(limits.widest,
+                  static_cast<double>(sigma) / (2.0 * std::numbers::sqrt2 * limits.slope));
+}
+
 // Smoothing that each pixel asks for beyond the usual one: its standard deviation, px; and the size
 // of a pixel, m. Zero where no error or no relief is known.
 struct WantedSmoothing {
@@ -155,21 +182,17 @@ struct WantedSmoothing {
 };
 
 WantedSmoothing SmoothingFor(const DepthMap& depth, const Plane& height, const Plane& sigma,
-                             const Backdrop& backdrop, const NoiseLimits& limits) {
+                             const Backdrop& backdrop, const NoiseLimits& limits,
+                             const Frame& frame) {
   WantedSmoothing wanted{Plane(height.size(), 0.0f), Plane(height.size(), 0.0f)};
   for (int y = 0; y < depth.height; ++y)
     for (int x = 0; x < depth.width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(depth.width) +
                             static_cast<std::size_t>(x);
-      const double radius = backdrop.radius - static_cast<double>(height[i]);
-      if (!(sigma[i] > 0.0f) || !std::isfinite(depth.relief[i]) || !(radius > 0.0)) continue;
-      const glm::dmat2x3 gradients = PixelGradients(
-          backdrop.projection, radius * DirectionFromPixel(backdrop.projection, {x, y}));
-      const double px_per_m = std::sqrt(
-          std::max(glm::dot(gradients[0], gradients[0]), glm::dot(gradients[1], gradients[1])));
-      const double s = std::min(limits.widest, static_cast<double>(sigma[i]) /
-                                                   (2.0 * std::numbers::sqrt2 * limits.slope));
-      wanted.deviation[i] = static_cast<float>(s * px_per_m);
+      if (!(sigma[i] > 0.0f) || !std::isfinite(depth.relief[i])) continue;
+      const double px_per_m = PixelsPerMetre(backdrop, height[i], frame.left + x, frame.top + y);
+      if (!(px_per_m > 0.0)) continue;
+      wanted.deviation[i] = static_cast<float>(SmoothingOf(sigma[i], limits) * px_per_m);
       wanted.pixel_size[i] = static_cast<float>(1.0 / px_per_m);
     }
   return wanted;
@@ -195,29 +218,28 @@ Plane NearStepsOf(const DepthMap& depth, const Plane& sigma, const WantedSmoothi
   return Ratio(fading);
 }
 
-}  // namespace
-
-TouchedRelief SmoothRelief(const DepthMap& depth, int passes) {
-  return {Ratio(SumsOf(depth, passes)), {}};
-}
-
-TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& sigma,
-                           const Backdrop& backdrop, const NoiseLimits& limits) {
+// `widest`: of the smoothing, px, where it is asked for.
+TouchedRelief SmoothPart(const DepthMap& depth, int passes, const DepthMap& sigma,
+                         const Backdrop& backdrop, const NoiseLimits& limits, const Frame& frame,
+                         float* widest_px = nullptr, const std::atomic<bool>* stop = nullptr) {
   Sums sums = SumsOf(depth, passes);
   TouchedRelief touched{Ratio(sums), SmoothSigma(depth, sigma)};
   if (touched.sigma.empty()) return touched;
   const int w = depth.width, h = depth.height;
   const WantedSmoothing wanted =
-      SmoothingFor(depth, touched.height, touched.sigma, backdrop, limits);
+      SmoothingFor(depth, touched.height, touched.sigma, backdrop, limits, frame);
   const float widest = *std::max_element(wanted.deviation.begin(), wanted.deviation.end());
+  if (widest_px != nullptr) *widest_px = widest;
   const Plane near = widest > 0.0f ? NearStepsOf(depth, touched.sigma, wanted) : Plane();
 
-  Moments moments(std::move(sums), w, h);
+  Moments moments(std::move(sums), w, h, frame);
   Plane before = touched.height;
   float variance = 0.0f;  // beyond the usual one, px²
   for (int growth = 0; variance < widest * widest; ++growth) {
     const int gap = 1 << (growth / 2);
     if (gap >= std::max(w, h)) break;
+    if (stop != nullptr && stop->load(std::memory_order_relaxed))
+      throw Error(Code::kCancelled, "stopped");
     const float added = 0.5f * static_cast<float>(gap) * static_cast<float>(gap);
     const OuterTaps taps = TapsBetween(near, before, touched.sigma, w, h, gap);
     WidenAll(moments.All(), w, h, gap, taps);
@@ -236,8 +258,8 @@ TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& si
   return touched;
 }
 
-DepthMap WithoutNoise(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop) {
-  // Medians of 3 x 3 pixels first: they remove the outliers of white noise, and keep steps sharp.
+// Medians of 3 x 3 pixels: they remove the outliers of white noise, and keep steps sharp.
+DepthMap MediansOf(const DepthMap& depth, const DepthMap& sigma) {
   DepthMap quiet = depth;
   if (sigma.relief.size() == depth.relief.size())
     for (int y = 0; y < depth.height; ++y)
@@ -253,10 +275,99 @@ DepthMap WithoutNoise(const DepthMap& depth, const DepthMap& sigma, const Backdr
                          around.begin() + static_cast<std::ptrdiff_t>(known));
         quiet.at(x, y) = *middle;
       }
-  const TouchedRelief touched = SmoothRelief(quiet, 0, sigma, backdrop, {});
+  return quiet;
+}
+
+DepthMap WithoutNoiseIn(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop,
+                        const Frame& frame, float* widest_px = nullptr,
+                        const std::atomic<bool>* stop = nullptr) {
+  DepthMap quiet = MediansOf(depth, sigma);
+  const TouchedRelief touched = SmoothPart(quiet, 0, sigma, backdrop, {}, frame, widest_px, stop);
   for (std::size_t i = 0; i < quiet.relief.size(); ++i)
     if (std::isfinite(depth.relief[i])) quiet.relief[i] = touched.height[i];
   return quiet;
+}
+
+DepthMap CutOut(const DepthMap& map, const PixelBounds& box) {
+  DepthMap part(box.width(), box.height());
+  for (int y = 0; y < box.height(); ++y)
+    std::copy_n(&map.relief[static_cast<std::size_t>(box.top + y) * map.width + box.left],
+                box.width(), &part.relief[static_cast<std::size_t>(y) * box.width()]);
+  return part;
+}
+
+// Pixels to each side that the smoothing of this standard deviation reads: gaps of its taps.
+int ReachOf(double deviation_px) {
+  int reach = 0;
+  double variance = 0;
+  for (int growth = 0; variance < deviation_px * deviation_px; ++growth) {
+    const int gap = 1 << (growth / 2);
+    reach += gap;
+    variance += 0.5 * gap * gap;
+  }
+  return reach;
+}
+
+// Widest smoothing around a rectangle, px, from every eighth pixel and its standard error.
+double WidestAround(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop,
+                    const PixelBounds& box) {
+  constexpr int kStep = 8;
+  double widest = 0;
+  for (int y = box.top; y < box.bottom; y += kStep)
+    for (int x = box.left; x < box.right; x += kStep)
+      if (std::isfinite(depth.at(x, y)) && sigma.at(x, y) > 0.0f)
+        widest = std::max(widest, SmoothingOf(sigma.at(x, y), {}) *
+                                      PixelsPerMetre(backdrop, depth.at(x, y), x, y));
+  return widest;
+}
+
+}  // namespace
+
+TouchedRelief SmoothRelief(const DepthMap& depth, int passes) {
+  return {Ratio(SumsOf(depth, passes)), {}};
+}
+
+TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& sigma,
+                           const Backdrop& backdrop, const NoiseLimits& limits) {
+  return SmoothPart(depth, passes, sigma, backdrop, limits, WholeOf(depth));
+}
+
+DepthMap WithoutNoise(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop) {
+  return WithoutNoiseIn(depth, sigma, backdrop, WholeOf(depth));
+}
+
+QuietPart WithoutNoiseAround(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop,
+                             const PixelBounds& changed, const std::atomic<bool>* stop) {
+  const int width = depth.width, height = depth.height;
+  const PixelBounds whole{0, 0, width, height};
+  bool has_every_error = sigma.relief.size() == depth.relief.size();
+  for (std::size_t i = 0; has_every_error && i < depth.relief.size(); ++i)
+    has_every_error = !std::isfinite(depth.relief[i]) || std::isfinite(sigma.relief[i]);
+  // The standard error is smoothed over 10 px, and steps are sought over some 15 more.
+  constexpr int kOfSigma = 10, kOfSteps = 16;
+  for (int reach = 16; has_every_error;) {
+    const PixelBounds box = Grown(changed, reach + kOfSigma + kOfSteps, width, height),
+                      read = Grown(box, reach + kOfSigma + kOfSteps, width, height);
+    if (read == whole) break;
+    // A first guess from few pixels saves a computation with too narrow a margin.
+    if (const int guess = ReachOf(WidestAround(depth, sigma, backdrop, read)); guess > reach) {
+      reach = guess;
+      continue;
+    }
+    float widest = 0;
+    const DepthMap quiet = WithoutNoiseIn(CutOut(depth, read), CutOut(sigma, read), backdrop,
+                                          {read.left, read.top, width, height}, &widest, stop);
+    if (const int wanted = ReachOf(static_cast<double>(widest)); wanted > reach) {
+      reach = wanted;
+      continue;
+    }
+    return {box,
+            CutOut(quiet, {box.left - read.left, box.top - read.top, box.right - read.left,
+                           box.bottom - read.top}),
+            read.width() * read.height()};
+  }
+  return {whole, WithoutNoiseIn(depth, sigma, backdrop, WholeOf(depth), nullptr, stop),
+          width * height};
 }
 
 }  // namespace arthro::simulation

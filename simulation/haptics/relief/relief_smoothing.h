@@ -2,9 +2,11 @@
 // known, until the noise that is left has a bounded slope [method.md, Backdrop force].
 #pragma once
 
+#include <atomic>
 #include <vector>
 
 #include "simulation/scene/image.h"
+#include "simulation/scene/pixel_bounds.h"
 #include "simulation/scene/scene.h"
 
 namespace arthro::simulation {
@@ -35,5 +37,20 @@ TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& si
 // of 3 x 3 pixels take the place of the smoothing of single pixels, and unknown depths stay
 // unknown.
 DepthMap WithoutNoise(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop);
+
+// Part of such a map.
+struct QuietPart {
+  PixelBounds box;
+  DepthMap relief;  // size of the box
+  int read = 0;     // pixels that were computed
+};
+
+// The part of WithoutNoise(depth, sigma, backdrop) that a change of depth or sigma within `changed`
+// alters: the smoothing reaches so far. The same bytes where no step lies near; a step is judged by
+// the part of its line within the pixels that were read. The whole map where `sigma` lacks a value,
+// which counts as the largest of all. Throws Error(kCancelled) once `stop` is set; null: it never
+// is.
+QuietPart WithoutNoiseAround(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop,
+                             const PixelBounds& changed, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace arthro::simulation

@@ -316,5 +316,65 @@ TEST(DepthFieldWithError, StiffnessChangesGradually) {
   }
 }
 
+// A map without steps, wide enough that a change has an end.
+struct QuietMap {
+  static constexpr int kWide = 1400, kHigh = 900;
+  QuietMap() : depth(kWide, kHigh), sigma(kWide, kHigh) {
+    backdrop.radius = kSphere;
+    backdrop.projection.type = ProjectionType::kGnomonic;
+    backdrop.projection.centre_px = {700, 450};
+    backdrop.projection.focal_px = 1000;
+    std::mt19937 random(4);
+    std::normal_distribution<float> noise(0, 1e-4f);
+    for (int y = 0; y < kHigh; ++y)
+      for (int x = 0; x < kWide; ++x) {
+        depth.at(x, y) =
+            0.01f + 2e-3f * std::sin(0.01f * static_cast<float>(x + y)) + noise(random);
+        sigma.at(x, y) = 1e-4f * (1.2f + 0.5f * std::sin(0.02f * static_cast<float>(x)));
+        if (x > 650 && x < 670) depth.at(x, y) = sigma.at(x, y) = std::nanf("");
+      }
+  }
+  // Height of 0.3 mm over a disc, with a standard error of its own.
+  PixelBounds Raise(int x, int y, int radius) {
+    for (int v = y - radius; v <= y + radius; ++v)
+      for (int u = x - radius; u <= x + radius; ++u)
+        if (std::hypot(u - x, v - y) <= radius) {
+          depth.at(u, v) += 3e-4f;
+          sigma.at(u, v) *= 1.5f;
+        }
+    return {x - radius, y - radius, x + radius + 1, y + radius + 1};
+  }
+  DepthMap depth, sigma;
+  Backdrop backdrop;
+};
+
+TEST(WithoutNoiseAround, HasTheBytesOfTheWholeMapWhereAChangeReaches) {
+  QuietMap map;
+  const DepthMap before = WithoutNoise(map.depth, map.sigma, map.backdrop);
+  const PixelBounds changed = map.Raise(610, 400, 15);  // near the unknown stripe
+  const DepthMap after = WithoutNoise(map.depth, map.sigma, map.backdrop);
+  const QuietPart part = WithoutNoiseAround(map.depth, map.sigma, map.backdrop, changed);
+  DepthMap pieced = before;
+  for (int y = 0; y < part.relief.height; ++y)
+    for (int x = 0; x < part.relief.width; ++x)
+      pieced.at(part.box.left + x, part.box.top + y) = part.relief.at(x, y);
+  const PixelBounds off = DifferenceOf(pieced, after), altered = DifferenceOf(before, after);
+  std::printf("changed %d x %d px, altered %d x %d, made anew %d x %d, read %d of %d px\n",
+              changed.width(), changed.height(), altered.width(), altered.height(),
+              part.box.width(), part.box.height(), part.read, QuietMap::kWide * QuietMap::kHigh);
+  EXPECT_FALSE(altered.is_empty());
+  EXPECT_TRUE(off.is_empty()) << off.left << " " << off.top << " " << off.right << " "
+                              << off.bottom;
+  EXPECT_LT(part.read, QuietMap::kWide * QuietMap::kHigh / 3);
+}
+
+TEST(WithoutNoiseAround, IsTheWholeMapWhereAnErrorIsMissing) {
+  QuietMap map;
+  map.sigma.at(5, 5) = std::nanf("");  // counts as the largest error of the map
+  const PixelBounds changed = map.Raise(300, 400, 15);
+  EXPECT_EQ(WithoutNoiseAround(map.depth, map.sigma, map.backdrop, changed).box,
+            (PixelBounds{0, 0, QuietMap::kWide, QuietMap::kHigh}));
+}
+
 }  // namespace
 }  // namespace arthro::simulation
