@@ -14,7 +14,7 @@ namespace arthro::app {
 
 class ReliefWork {
  public:
-  // What a relief is made from; maps are compared by identity.
+  // Maps and place that a relief is made from. Maps are compared by identity.
   struct Source {
     std::shared_ptr<const DepthMap> depth, sigma;
     glm::ivec2 panorama_size{0};
@@ -30,7 +30,7 @@ class ReliefWork {
   bool busy() const { return work_.valid(); }
 
  private:
-  Source source_;  // of `made_`, or of the relief that is being made
+  Source source_;  // source of `made_`, or of the relief that is being made
   std::shared_ptr<const DrawnRelief> made_;
   std::future<DrawnRelief> work_;  // its destructor waits for the thread
 };
