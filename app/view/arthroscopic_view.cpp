@@ -224,6 +224,24 @@ void ArthroscopicView::SetDepth(const DepthMap& depth, const DepthMap& sigma) {
   parts_->backdrop->UploadDepth(parts_->window, depth, sigma);
 }
 
+int ArthroscopicView::UpdateDepth(const DepthMap& depth, const DepthMap& sigma,
+                                  const PixelBounds& changed) {
+  parts_->window->GetState()->Reset();
+  return parts_->backdrop->UpdateDepth(parts_->window, depth, sigma, changed);
+}
+
+void ArthroscopicView::ShiftDepth(const DepthMap& before, const DepthMap& depth,
+                                  const DepthMap& sigma, const PixelBounds& changed) {
+  parts_->window->GetState()->Reset();
+  parts_->backdrop->ShiftDepth(parts_->window, before, depth, sigma, changed);
+}
+
+void ArthroscopicView::PutQuiet(const DepthMap& depth, const DepthMap& sigma,
+                                const simulation::QuietPart& part) {
+  parts_->window->GetState()->Reset();
+  parts_->backdrop->PutQuiet(parts_->window, depth, sigma, part);
+}
+
 bool ArthroscopicView::SetGeometry(const Backdrop& backdrop) {
   parts_->ForgetLight();
   return parts_->backdrop->SetGeometry(backdrop);

@@ -18,7 +18,9 @@
 #include "app/view/drawing/picture.h"
 #include "app/view/drawing/picture_cost.h"
 #include "app/view/exposure/camera_exposure.h"
+#include "simulation/haptics/relief/relief_smoothing.h"
 #include "simulation/scene/files/loaded_scene.h"
+#include "simulation/scene/pixel_bounds.h"
 #include "simulation/tissue/body/tissue_look.h"
 
 namespace arthro::app {
@@ -38,6 +40,13 @@ class ArthroscopicView {
                    const DepthMap& sigma = {});
   // Replaces the relief of the same panorama, for a live preview: only the relief is uploaded.
   void SetDepth(const DepthMap& depth, const DepthMap& sigma = {});
+  // The same after a change of either map within `changed`, such as a stroke of a brush. Returns
+  // the number of pixels whose noise was removed anew.
+  int UpdateDepth(const DepthMap& depth, const DepthMap& sigma, const PixelBounds& changed);
+  // The same at once, but with the noise of the change, which PutQuiet replaces.
+  void ShiftDepth(const DepthMap& before, const DepthMap& depth, const DepthMap& sigma,
+                  const PixelBounds& changed);
+  void PutQuiet(const DepthMap& depth, const DepthMap& sigma, const simulation::QuietPart& part);
   // Moves the same panorama and relief. Returns false, and does nothing, when the panorama would
   // begin or cease to cover a full turn: call SetBackdrop then.
   bool SetGeometry(const Backdrop& backdrop);

@@ -133,6 +133,7 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   const bool same_depth = depth == depth_ && sigma == sigma_;
   const bool same_scene = panorama == panorama_ && same_depth && same_place;
   if (same_scene && same_reach) return;
+  const std::shared_ptr<const DepthMap> old_depth = depth_, old_sigma = sigma_;
   panorama_ = panorama;
   depth_ = depth;
   sigma_ = sigma;
@@ -149,14 +150,44 @@ void Pictures::TakeBackdrop(const EditorState& state) {
         Shrunk(shown.projection, static_cast<double>(document.panorama->width) / panorama->width);
   // The panorama is by far the most to upload; a slider changes only its place or the relief.
   const bool is_kept = same_scene || (same_panorama && scope_.SetGeometry(shown));
+  if (!is_kept || (!same_depth && !(old_depth && !old_sigma == !sigma))) quiet_.Stop();
   if (!is_kept)
     scope_.SetBackdrop(*panorama, relief, shown, OrEmpty(sigma));
+  else if (!same_depth && old_depth && !old_sigma == !sigma)
+    ChangeDepth(state, *old_depth, OrEmpty(old_sigma), shown);
   else if (!same_depth)
     scope_.SetDepth(relief, OrEmpty(sigma));
   if (is_kept && same_reach)
     overview_.SetRelief(relief, shown);
   else
     overview_.SetBackdrop(coloured, relief, shown);
+}
+
+// A stroke of a brush, or its undoing, changes a small part of the map.
+void Pictures::ChangeDepth(const EditorState& state, const DepthMap& before,
+                           const DepthMap& sigma_before, const Backdrop& shown) {
+  const DepthMap& depth = OrEmpty(depth_);
+  const DepthMap& sigma = OrEmpty(sigma_);
+  const PixelBounds changed =
+      Joined(DifferenceOf(before, depth), DifferenceOf(sigma_before, sigma));
+  const double area = static_cast<double>(changed.width()) * changed.height();
+  constexpr double kLargePart = 0.25;  // of the map; a new map rather than a stroke
+  if (area > kLargePart * depth.width * depth.height) {
+    quiet_.Stop();
+    scope_.SetDepth(depth, sigma);
+  } else if (steady_ || sigma.empty() || changed.is_empty()) {
+    scope_.UpdateDepth(depth, sigma, changed);
+  } else {
+    scope_.ShiftDepth(before, depth, sigma, changed);
+    quiet_.Start(depth_, sigma_, shown, changed, state.wake);
+  }
+}
+
+void Pictures::TakeQuiet() {
+  const auto quiet = quiet_.Take();
+  if (!quiet || quiet->depth != depth_) return;
+  scope_.PutQuiet(OrEmpty(depth_), OrEmpty(sigma_), quiet->part);
+  changed_ = true;
 }
 
 void Pictures::TakeTissues(const EditorState& state) {
@@ -282,6 +313,7 @@ void Pictures::TakeLiveTissues(const EditorState& state) {
 
 void Pictures::Take(const EditorState& state) {
   TakeBackdrop(state);
+  TakeQuiet();
   TakeTissues(state);
   HideOutlined(state);
   TakeLiveTissues(state);

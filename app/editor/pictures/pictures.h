@@ -12,6 +12,7 @@
 #include "app/editor/panels/panels.h"
 #include "app/editor/pictures/footage_textures.h"
 #include "app/editor/pictures/picture_rest.h"
+#include "app/editor/pictures/quiet_work.h"
 #include "app/editor/pictures/render_scale.h"
 #include "app/recording/live_film.h"
 #include "app/state/editor_state.h"
@@ -57,6 +58,8 @@ class Pictures {
   unsigned scope_texture() const { return has_picture_ ? scope_.TextureId() : 0; }
   // The last picture without the chosen tissue; 0 where that is not faded.
   unsigned bare_texture() const { return bare_ ? bare_->id() : 0; }
+  // That picture, read from the graphics card.
+  ColourImage ReadScope() const { return scope_.ReadPixels(); }
   int scope_edge() const { return drawn_size_; }       // px of that texture
   long scope_version() const { return drawn_count_; }  // grows with each picture
   const simulation::ScopeView& view() const { return picture_.view; }
@@ -73,6 +76,9 @@ class Pictures {
  private:
   void Take(const EditorState& state);
   void TakeBackdrop(const EditorState& state);
+  void ChangeDepth(const EditorState& state, const DepthMap& before, const DepthMap& sigma_before,
+                   const Backdrop& shown);
+  void TakeQuiet();
   void TakeTissues(const EditorState& state);
   void TakeCuts(const authoring::Document& document);
   void ShowPlaces(const EditorState& state);
@@ -122,6 +128,7 @@ class Pictures {
   // Contents of the view.
   std::shared_ptr<const ColourImage> panorama_;
   std::shared_ptr<const DepthMap> depth_, sigma_;
+  QuietWork quiet_;                           // removes the noise where they changed
   std::shared_ptr<const ColourImage> reach_;  // null: the panorama as it is
   Backdrop backdrop_;
   bool as_filmed_ = false;

@@ -49,9 +49,9 @@ constexpr double kLampBlur = 2;
 constexpr double kSideOfError = 5 * std::numbers::sqrt2;
 
 // Median smoothing that the noise of a depth map asks for, as a standard deviation in its pixels at
-// the radius of the backdrop; 0 where none is known [method.md, Backdrop force].
-double SmoothingPx(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop) {
-  const double error = SharesOf(depth, sigma, {}).median_sigma.value_or(0.0);
+// the radius of the backdrop [method.md, Backdrop force]. `error`: median standard error, m; 0:
+// none is known.
+double SmoothingPx(double error, const Backdrop& backdrop) {
   const simulation::NoiseLimits limits;
   const double smoothing =
       std::min(limits.widest, error / (2 * std::numbers::sqrt2 * limits.slope));
@@ -130,18 +130,64 @@ std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImag
 void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth,
                                const DepthMap& sigma) {
   const bool is_known = !sigma.empty() && !depth.empty();
-  const DepthMap quiet = is_known ? simulation::WithoutNoise(depth, sigma, backdrop_) : DepthMap();
-  ReliefTexture relief = MakeReliefTexture(panorama_size_, is_known ? quiet : depth, wraps_, sigma);
+  sampled_ = SampledRelief(is_known ? simulation::WithoutNoise(depth, sigma, backdrop_) : depth);
+  sampled_size_ = {depth.width, depth.height};
+  is_moved_ = false;
+  UploadSampled(window, depth, sigma);
+}
+
+int BackdropProp::UpdateDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth,
+                              const DepthMap& sigma, const PixelBounds& changed) {
+  if (changed.is_empty()) return 0;
+  if (is_moved_ || sampled_size_ != glm::ivec2(depth.width, depth.height)) {
+    UploadDepth(window, depth, sigma);
+    return depth.width * depth.height;
+  }
+  int read = 0;
+  if (!sigma.empty() && !depth.empty()) {
+    const simulation::QuietPart quiet =
+        simulation::WithoutNoiseAround(depth, sigma, backdrop_, changed);
+    PutSampled(quiet.relief, quiet.box, sampled_size_, sampled_);
+    read = quiet.read;
+  } else {
+    sampled_ = SampledRelief(depth);
+  }
+  UploadSampled(window, depth, sigma);
+  return read;
+}
+
+void BackdropProp::PutQuiet(vtkOpenGLRenderWindow* window, const DepthMap& depth,
+                            const DepthMap& sigma, const simulation::QuietPart& part) {
+  if (sampled_size_ != glm::ivec2(depth.width, depth.height)) return;
+  PutSampled(part.relief, part.box, sampled_size_, sampled_);
+  UploadSampled(window, depth, sigma);
+}
+
+void BackdropProp::ShiftDepth(vtkOpenGLRenderWindow* window, const DepthMap& before,
+                              const DepthMap& depth, const DepthMap& sigma,
+                              const PixelBounds& changed) {
+  if (changed.is_empty()) return;
+  if (sampled_size_ != glm::ivec2(depth.width, depth.height))
+    return UploadDepth(window, depth, sigma);
+  ShiftSampled(before, depth, changed, sampled_);
+  UploadSampled(window, depth, sigma);
+}
+
+void BackdropProp::UploadSampled(vtkOpenGLRenderWindow* window, const DepthMap& depth,
+                                 const DepthMap& sigma) {
+  const bool is_known = !sigma.empty() && !depth.empty();
+  const double error = is_known ? SharesOf(depth, sigma, {}).median_sigma.value_or(0.0) : 0.0;
+  ReliefTexture relief =
+      MakeReliefTexture(panorama_size_, depth, sampled_, wraps_, SampledRelief(sigma));
   Fill(*relief_, window, relief.width, relief.height, 4, VTK_FLOAT, relief.texels.data());
   if (backdrop_.relight > 0) {
     const BroadSlopes broad = MakeBroadSlopes(
         relief, wraps_,
-        kLampBlur * SmoothingPx(depth, sigma, backdrop_) * relief.width / std::max(depth.width, 1));
+        kLampBlur * SmoothingPx(error, backdrop_) * relief.width / std::max(depth.width, 1));
     Fill(*slopes_, window, broad.width, broad.height, 3, VTK_FLOAT, broad.slopes.data());
   }
   is_noisy_ = is_known;
-  least_side_ =
-      is_known ? kSideOfError * SharesOf(depth, sigma, {}).median_sigma.value_or(0.0) : 0.0;
+  least_side_ = kSideOfError * error;
   unsearched_ = std::move(relief);
   SetRelief(grid_, depth);
 }
@@ -160,6 +206,8 @@ bool BackdropProp::SetGeometry(const Backdrop& backdrop) {
   if (IsWholeTurn(backdrop.projection, panorama_size_.x) != wraps_ ||
       backdrop.relight != backdrop_.relight)
     return false;
+  // The noise that is removed depends on the place of the relief.
+  is_moved_ = is_moved_ || !(backdrop == backdrop_);
   backdrop_ = backdrop;
   return true;
 }

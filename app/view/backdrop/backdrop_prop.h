@@ -17,6 +17,7 @@
 #include "app/view/drawing/lens_model.h"
 #include "app/view/drawing/picture.h"
 #include "app/view/exposure/footage_light.h"
+#include "simulation/haptics/relief/relief_smoothing.h"
 
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
@@ -36,6 +37,17 @@ class BackdropProp : public vtkProp {
                      const DepthMap& depth, const Backdrop& backdrop, const DepthMap& sigma);
   // Replaces the relief of the present panorama: a fraction of the work.
   void UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth, const DepthMap& sigma);
+  // The same after a change of either map within `changed`: its noise is removed only there.
+  // Returns the number of pixels whose noise was removed.
+  int UpdateDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth, const DepthMap& sigma,
+                  const PixelBounds& changed);
+  // The same at once: the heights change by as much as those of the map did, `before` to `depth`,
+  // low-passed, and the noise of the change stays until PutQuiet.
+  void ShiftDepth(vtkOpenGLRenderWindow* window, const DepthMap& before, const DepthMap& depth,
+                  const DepthMap& sigma, const PixelBounds& changed);
+  // Replaces a part of the relief by one without noise.
+  void PutQuiet(vtkOpenGLRenderWindow* window, const DepthMap& depth, const DepthMap& sigma,
+                const simulation::QuietPart& part);
   // Moves the present panorama; uploads nothing. Returns false, and does nothing, when it would
   // begin or cease to cover a full turn.
   bool SetGeometry(const Backdrop& backdrop);
@@ -73,6 +85,7 @@ class BackdropProp : public vtkProp {
   std::pair<glm::dvec2, glm::dvec2> ProjectionInTexture() const;
   // Prepares the textures of the relief search, for the first picture that searches.
   void PrepareSearch(vtkOpenGLRenderWindow* window);
+  void UploadSampled(vtkOpenGLRenderWindow* window, const DepthMap& depth, const DepthMap& sigma);
   void Fill(vtkTextureObject& texture, vtkOpenGLRenderWindow* window, int width, int height,
             int channels, int type, const void* data) const;
 
@@ -84,8 +97,11 @@ class BackdropProp : public vtkProp {
   int reduction_ = 1;   // panorama pixels per texel and axis
   bool wraps_ = false;  // full turn: left and right edge meet
   bool is_in_contact_ = false;
-  bool is_noisy_ = false;  // the relief has a known standard error
-  double least_side_ = 0;  // m, height of the lowest step that has a side; 0: no limit
+  bool is_noisy_ = false;       // the relief has a known standard error
+  double least_side_ = 0;       // m, height of the lowest step that has a side; 0: no limit
+  DepthMap sampled_;            // the relief without its noise, at the texels of its texture
+  glm::ivec2 sampled_size_{0};  // px, of the depth map
+  bool is_moved_ = false;       // since the noise of the whole map was removed
   ReliefTexture unsearched_;
   double highest_ = 0;  // maximum of the relief, m
   int block_ = 1;       // texels per block of the relief's maxima
