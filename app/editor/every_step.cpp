@@ -16,6 +16,7 @@
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/film.h"
+#include "app/steps/practice/lens/grid_lens.h"
 #include "app/steps/practice/rig_edit.h"
 #include "app/steps/practice/tissue_poke.h"
 #include "app/steps/solids/solid_edit.h"
@@ -187,6 +188,7 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
   steps.portals.emplace(wake);
   steps.practice.emplace(wake);
   steps.practice->rig.emplace();
+  steps.practice->grid.emplace();
   steps.lessons.emplace();
   steps.lessons->records.emplace();
   steps.lessons->start.emplace();

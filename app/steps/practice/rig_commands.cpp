@@ -1,5 +1,6 @@
 // Commands for rigs, and for the instruments that the scene offers.
 #include "app/state/dialogs.h"
+#include "app/steps/practice/lens/grid_lens.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/practice/rig_edit.h"
 #include "simulation/practice/hands/offered_instruments.h"
@@ -93,6 +94,30 @@ constexpr Command kCommands[] = {
      {},
      Idle,
      FindDevices},
+    {"grid-lens",
+     "Pictures of a grid…",
+     "Calibrate the lens of the scope from pictures of a line grid, chessboard or dot grid.",
+     "Rig",
+     {},
+     {},
+     [](const State& state) { return InEditor(state) && Idle(state); },
+     BrowseForGrid},
+    {"save-grid-lens",
+     "Save the lens…",
+     "Write the calibrated lens into a file.",
+     "Rig",
+     {},
+     {},
+     HasGridLens,
+     SaveGridLens},
+    {"use-grid-lens",
+     "Use it here",
+     "Let the scope of this scene have the calibrated lens.",
+     "Rig",
+     {},
+     {},
+     HasGridLens,
+     UseGridLens},
     {"offer-probe",
      "Offer the probe",
      "Let the scene offer the probe in practice, or not.",
