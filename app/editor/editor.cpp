@@ -26,6 +26,7 @@
 #include "app/files/recovery_copy.h"
 #include "app/files/scene_files.h"
 #include "app/files/start_page.h"
+#include "app/files/step_pictures.h"
 #include "app/platform/ending_signals.h"
 #include "app/platform/picture_window.h"
 #include "app/platform/resource_folder.h"
@@ -357,13 +358,13 @@ class Editor {
       if (ShowsStartPage(state_)) {
         Board(ui, layout, StartBoard);
         StatusBar(ui, state_, layout.status, "");
-        Dialogs(ui, state_);
+        ShowDialogs(ui);
         return;
       }
       if (state_.steps.lessons->page != LessonPage::kNone) {
         Lesson(ui);
         StatusBar(ui, state_, layout.status, pictures_.notice());
-        Dialogs(ui, state_);
+        ShowDialogs(ui);
         return;
       }
       StepsPanel(ui, state_, layout.side);
@@ -376,7 +377,7 @@ class Editor {
       }
       StatusBar(ui, state_, layout.status, pictures_.notice());
     }
-    Dialogs(ui, state_);
+    ShowDialogs(ui);
   }
 
   // Picture and overview together.
@@ -389,6 +390,13 @@ class Editor {
   static void StartBoard(Ui& ui, EditorState& state, const Area& area,
                          const PictureTextureOf& texture_of) {
     StartPagePanel(ui, state, {0, area.y, area.x + area.width, area.height}, texture_of);
+  }
+
+  void ShowDialogs(Ui& ui) {
+    dialog_textures_.BeginFrame();
+    Dialogs(ui, state_,
+            [&](const SharedPicture& picture) { return dialog_textures_.IdOf(picture); });
+    dialog_textures_.EndFrame();
   }
 
   template <class Page>
@@ -423,10 +431,12 @@ class Editor {
 
   void DrawPictures(const Ui& ui, const Layout& layout) {
     if (!will_draw_) return;
-    if (pictures_.DrawScope(state_, ScopePictureSize(ui, state_, layout.picture),
-                            ImGui::GetTime()) &&
-        unsettled_ < 2)
-      unsettled_ = 2;
+    const bool is_moving =
+        pictures_.DrawScope(state_, ScopePictureSize(ui, state_, layout.picture), ImGui::GetTime());
+    if (is_moving && unsettled_ < 2) unsettled_ = 2;
+    // The picture of the step is read once it rests.
+    if (!is_moving && pictures_.scope_texture() != 0 && WantsStepPicture(state_))
+      KeepStepPicture(state_, pictures_.ReadScope());
     if (state_.steps.practice->film && state_.practice) {
       if (std::exchange(noted_film_, state_.steps.practice->film.get()) !=
           state_.steps.practice->film.get())
@@ -446,7 +456,7 @@ class Editor {
   Window window_;
   Pictures pictures_;
   std::optional<PictureWindow> trainee_screen_;
-  FootageTextures footage_textures_;
+  FootageTextures footage_textures_, dialog_textures_;
   PanoramaClicks panorama_clicks_;
   EditorState state_;
   RecoveryCopy recovery_;  // ends before the state that it writes

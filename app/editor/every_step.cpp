@@ -5,6 +5,7 @@
 
 #include <GLFW/glfw3.h>
 
+#include "app/files/browse_preview.h"
 #include "app/files/scene_files.h"
 #include "app/files/start_page.h"
 #include "app/steps/budget/frame_budget.h"
@@ -200,12 +201,13 @@ bool HasWork(const EditorState& state) {
   return state.jobs.busy() || steps.depth->preview_jobs.busy() ||
          steps.panorama->frame_jobs.busy() || steps.practice->pivot_jobs.busy() ||
          steps.portals->reach.jobs.busy() || (state.start && state.start->jobs.busy()) ||
-         steps.tissue->faults->jobs.busy();
+         (state.browsed && state.browsed->jobs.busy()) || steps.tissue->faults->jobs.busy();
 }
 
 bool FinishWork(EditorState& state) {
   bool changed = FinishFootage(state);
   changed = KeepStartPageFresh(state) || changed;
+  changed = KeepBrowsePreviewFresh(state) || changed;
   if (state.jobs.busy()) {
     const std::string words = state.jobs.words();
     Guarded(state, words, [&] { changed = state.jobs.Finish(state); });

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <chrono>
 #include <cstdlib>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -204,6 +205,42 @@ Acceptance FileBrowserModel::AcceptFolder() {
 Acceptance FileBrowserModel::Finish(const fs::path& path) {
   accepted_ = path;
   return Acceptance::kDone;
+}
+
+std::vector<BrowsePlace> BrowsePlaces(const fs::path& home, const std::vector<fs::path>& recent,
+                                      const fs::path& root) {
+  std::vector<BrowsePlace> places;
+  const auto add = [&](const std::string& words, const fs::path& folder) {
+    std::error_code ignored;
+    const bool is_known = std::any_of(places.begin(), places.end(), [&](const BrowsePlace& place) {
+      return place.folder == folder;
+    });
+    if (!folder.empty() && !is_known && fs::is_directory(folder, ignored))
+      places.push_back({words, folder});
+  };
+  add("Home", home);
+  for (const char* name : {"Desktop", "Documents", "Downloads", "Pictures", "Videos"})
+    if (!home.empty()) add(name, home / name);
+  for (const fs::path& scene : recent)
+    add(scene.parent_path().filename().string(), scene.parent_path());
+  // Drives and sticks: /media/USER/NAME, /run/media/USER/NAME and /mnt/NAME.
+  for (const char* base : {"media", "run/media", "mnt"}) {
+    std::error_code error;
+    const bool is_by_user = std::string_view(base) != "mnt";
+    for (fs::directory_iterator it(root / base, error), end; !error && it != end;
+         it.increment(error)) {
+      if (!is_by_user) {
+        add(it->path().filename().string(), it->path());
+        continue;
+      }
+      std::error_code inner;
+      for (fs::directory_iterator drive(it->path(), inner), last; !inner && drive != last;
+           drive.increment(inner))
+        add(drive->path().filename().string(), drive->path());
+    }
+  }
+  add("Computer", root);
+  return places;
 }
 
 std::string WordsForTime(std::time_t time) {

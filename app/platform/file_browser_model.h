@@ -87,6 +87,16 @@ class FileBrowserModel {
   double typed_at_ = 0;
 };
 
+// Folders that are one step away: home and those that it usually has, the folders of the recent
+// scenes, drives and sticks, and the root. Those that are there, each once.
+struct BrowsePlace {
+  std::string words;  // "Home", or the folder's name
+  std::filesystem::path folder;
+};
+std::vector<BrowsePlace> BrowsePlaces(const std::filesystem::path& home,
+                                      const std::vector<std::filesystem::path>& recent,
+                                      const std::filesystem::path& root = "/");
+
 // "2026-11-23 16:45", local time; "" where it is not known.
 std::string WordsForTime(std::time_t time);
 

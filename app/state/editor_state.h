@@ -6,6 +6,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -30,6 +32,7 @@ class Practice;
 
 namespace arthro::app {
 
+struct BrowsePreview;
 struct Command;
 struct DepthStep;
 struct LessonsStep;
@@ -96,7 +99,10 @@ struct EditorState {
   Jobs jobs;                    // tetrahedra, reading pictures, footage to panorama
   ScratchFolder scratch;        // files of products until they are saved
   RecentScenes recent;
-  Owned<StartPage> start;      // the page before a scene is open (app/files/start_page.h)
+  Owned<StartPage> start;        // the page before a scene is open (app/files/start_page.h)
+  Owned<BrowsePreview> browsed;  // preview of the file browser (app/files/browse_preview.h)
+  // Small pictures of the history's steps by their id (app/files/step_pictures.h).
+  std::map<long long, std::shared_ptr<const ColourImage>> step_pictures;
   WindowSettings settings;     // looks and language
   ScriptRecord record;         // record of the session
   std::function<void()> wake;  // ends the window's sleep, from any thread

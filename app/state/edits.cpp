@@ -68,13 +68,17 @@ void PutPanorama(authoring::Document& document, const std::shared_ptr<const Colo
                     double(panorama->height) * other.width) <=
            std::max(panorama->width, other.width);
   };
-  if (!document.panorama || !has_shape_of(*document.panorama)) document.depth_strokes = nullptr;
+  if (!document.panorama || !has_shape_of(*document.panorama)) {
+    document.depth_strokes = nullptr;
+    document.unmended = {};
+  }
   document.panorama = panorama;
   document.scene.backdrop.panorama = "panorama.png";
   PutFootage(document, nullptr);  // it tells of the panorama before
   if (keeps_depth) return;
   document.scene.backdrop.depth = "depth.tiff";
   SetDepth(document, nullptr);
+  document.unmended = {};
   document.is_depth_imported = false;
 }
 

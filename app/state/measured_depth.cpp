@@ -9,9 +9,4 @@ void SetMeasuredPanorama(EditorState& state, const std::string& name,
   Edit(state, name, "", [&](auto& next) { PutMeasuredPanorama(next, backdrop, lens); });
 }
 
-void SetMeasuredDepth(EditorState& state, const std::string& name,
-                      const MeasuredBackdrop& backdrop) {
-  Edit(state, name, "", [&](auto& next) { PutMeasuredDepth(next, backdrop); });
-}
-
 }  // namespace arthro::app

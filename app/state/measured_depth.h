@@ -1,4 +1,4 @@
-// Edits that put a measured relief into the document, each in one step that is undone.
+// Puts a measured panorama with its relief into the document, in one step that is undone.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,5 @@ namespace arthro::app {
 
 void SetMeasuredPanorama(EditorState& state, const std::string& name,
                          const MeasuredBackdrop& backdrop, const std::optional<Lens>& lens);
-void SetMeasuredDepth(EditorState& state, const std::string& name,
-                      const MeasuredBackdrop& backdrop);
 
 }  // namespace arthro::app

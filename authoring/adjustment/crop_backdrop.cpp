@@ -33,6 +33,14 @@ std::shared_ptr<const DepthMap> Part(const std::shared_ptr<const DepthMap>& map,
   return Share(std::move(part));
 }
 
+std::shared_ptr<const OriginMap> Part(const std::shared_ptr<const OriginMap>& map,
+                                      const PixelBox& box) {
+  if (!map) return nullptr;
+  OriginMap part(box.width, box.height);
+  part.origin = Part(map->origin, map->width, 1, box);
+  return Share(std::move(part));
+}
+
 // Points and radius of a stroke are shares of the picture's width.
 SharedStrokes Part(const SharedStrokes& strokes, int width, const PixelBox& box) {
   if (!strokes) return nullptr;
@@ -64,15 +72,14 @@ void CropBackdrop(Document& document, const PixelBox& box) {
   part.rgb = Part(whole.rgb, whole.width, 3, box);
   document.panorama = Share(std::move(part));
   const auto sigma = Part(document.depth_sigma, box);
-  std::shared_ptr<const OriginMap> origin;
-  if (document.depth_origin) {
-    OriginMap cropped(box.width, box.height);
-    cropped.origin = Part(document.depth_origin->origin, document.depth_origin->width, 1, box);
-    origin = Share(std::move(cropped));
-  }
+  const auto origin = Part(document.depth_origin, box);
   document.depth = Part(document.depth, box);
   document.depth_sigma = sigma;
   document.depth_origin = origin;
+  UnmendedDepth& unmended = document.unmended;
+  unmended.depth = Part(unmended.depth, box);
+  unmended.sigma = Part(unmended.sigma, box);
+  unmended.origin = Part(unmended.origin, box);
   document.scene.backdrop.projection.centre_px -= glm::dvec2(box.x, box.y);
   document.depth_strokes = Part(document.depth_strokes, width, box);
   if (!document.footage) return;

@@ -109,6 +109,10 @@ void MirrorScene(Document& document, const NewFile& new_file) {
   document.depth = MirrorRows(document.depth);
   document.depth_sigma = MirrorRows(document.depth_sigma);
   document.depth_origin = MirrorRows(document.depth_origin);
+  UnmendedDepth& unmended = document.unmended;
+  unmended.depth = MirrorRows(unmended.depth);
+  unmended.sigma = MirrorRows(unmended.sigma);
+  unmended.origin = MirrorRows(unmended.origin);
   document.depth_strokes = MirrorStrokes(document.depth_strokes);
   Projection& projection = scene.backdrop.projection;
   const double centre = std::nearbyint(projection.centre_px.x / kCentreStep) * kCentreStep;

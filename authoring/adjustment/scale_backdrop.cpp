@@ -8,6 +8,16 @@
 
 namespace arthro::authoring {
 
+void ScaleStrokes(Document& document, double factor) {
+  for (auto* map : {&document.unmended.depth, &document.unmended.sigma})
+    if (*map) *map = Share(ScaledMap(**map, factor));
+  if (!document.depth_strokes) return;
+  DepthStrokes strokes = *document.depth_strokes;
+  for (DepthStroke& stroke : strokes)
+    stroke.amount = std::min(kHighestStroke, factor * stroke.amount);
+  document.depth_strokes = Share(std::move(strokes));
+}
+
 double ScaleBackdrop(Document& document, const KnownLength& length) {
   const ColourImage& panorama = OrEmpty(document.panorama);
   if (panorama.empty())
@@ -31,12 +41,7 @@ double ScaleBackdrop(Document& document, const KnownLength& length) {
     // The same map, were it made anew.
     document.depth_options.near_relief *= factor;
     document.depth_options.far_relief *= factor;
-    if (document.depth_strokes) {
-      DepthStrokes strokes = *document.depth_strokes;
-      for (DepthStroke& stroke : strokes)
-        stroke.amount = std::min(kHighestStroke, factor * stroke.amount);
-      document.depth_strokes = Share(std::move(strokes));
-    }
+    ScaleStrokes(document, factor);
   }
   for (Tissue& tissue : document.scene.tissues) tissue.pose.position *= factor;
   return factor;

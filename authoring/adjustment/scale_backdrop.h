@@ -13,4 +13,7 @@ namespace arthro::authoring {
 // tenth or ten.
 double ScaleBackdrop(Document& document, const KnownLength& length);
 
+// Multiplies the heights of the strokes, and of an imported map before them, by the factor.
+void ScaleStrokes(Document& document, double factor);
+
 }  // namespace arthro::authoring

@@ -14,6 +14,7 @@
 #include "authoring/panorama/compose/layout.h"
 #include "authoring/panorama/compose_pieces.h"
 #include "authoring/panorama/graph/register.h"
+#include "authoring/panorama/known_places.h"
 #include "authoring/panorama/plain_picture.h"
 #include "authoring/panorama/ties/place_ties.h"
 #include "simulation/core/error.h"
@@ -89,6 +90,7 @@ Keys KeysOf(const PanoramaRequest& request) {
               fmt::format("{}", options.working_scale);
   keys.places = keys.clip + KeyOf(options.registration);
   for (const int index : request.excluded) keys.places += fmt::format(" -{}", index);
+  if (request.known) keys.places += fmt::format(" known {}", fmt::ptr(request.known.get()));
   keys.tied = keys.places;
   for (const FrameTie& tie : request.ties) keys.tied += KeyOf(tie);
   keys.tied += fmt::format(" {}", options.mask_text);
@@ -175,7 +177,7 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
   // Processor ms per frame, approximate; only the ratios matter.
   StageClock clock(progress, {{"read", has_clip ? 0 : 20},
                               {"prepare", has_clip ? 0 : 10},
-                              {"register", has_places ? 0 : 60},
+                              {"register", has_places || request.known ? 0 : 60},
                               {"compose", has_pieces ? 0 : 80}});
 
   if (!has_clip) {
@@ -208,14 +210,20 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
                               frames.size() == 1 ? " is" : "s are"),
                   request.footage);
     made.registration = {};
-    // A guessed focal length gives no constraint on the views of a plane.
-    RegisterOptions registration = options.registration;
-    if (clip.lens.is_guessed) registration.refine.camera_deviation = 0;
-    made.registered =
-        Register(frames, clip.view, clip.mask, registration, &made.registration,
-                 clock.Begin("register"), clip.lens.is_guessed ? nullptr : &clip.lens.lens);
-    clock.End();
-    made.register_costs = RegisterCosts(made.registration, clock.costs().back().cpu_ms);
+    if (request.known) {
+      made.registered = KnownPlaces(*request.known, clip, request.excluded);
+      made.registration.drift_px = request.known->drift_px;
+      made.register_costs.clear();
+    } else {
+      // A guessed focal length gives no constraint on the views of a plane.
+      RegisterOptions registration = options.registration;
+      if (clip.lens.is_guessed) registration.refine.camera_deviation = 0;
+      made.registered =
+          Register(frames, clip.view, clip.mask, registration, &made.registration,
+                   clock.Begin("register"), clip.lens.is_guessed ? nullptr : &clip.lens.lens);
+      clock.End();
+      made.register_costs = RegisterCosts(made.registration, clock.costs().back().cpu_ms);
+    }
     made.register_key = keys.places;
   }
   // Registers again with the focal length that the frames agree on.

@@ -37,6 +37,8 @@ struct PanoramaRequest {
   std::vector<PixelBox> masked;
   // Places of frames that did not register, by hand. The places of all other frames stay.
   std::vector<FrameTie> ties;
+  // Report of an earlier run: its frames keep their places, and no pairs are matched; null: none.
+  std::shared_ptr<const PanoramaReport> known;
 };
 
 Clips ClipsOf(const PanoramaRequest& request);

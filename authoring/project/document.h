@@ -9,6 +9,14 @@
 
 namespace arthro::authoring {
 
+// An imported depth map as it was before the strokes, and the files that hold it. Without a depth
+// no stroke was made, or the scene is one whose map holds its strokes for good.
+struct UnmendedDepth {
+  std::shared_ptr<const DepthMap> depth, sigma;
+  std::shared_ptr<const OriginMap> origin;
+  std::filesystem::path depth_file, sigma_file, origin_file;
+};
+
 struct Document : LoadedScene {
   // Compiled once, in document.cpp, since most sources copy scenes.
   Document();
@@ -21,6 +29,7 @@ struct Document : LoadedScene {
   DepthOptions depth_options;
   // Strokes that mended the depth map, in order; null: none. The map holds their effect.
   SharedStrokes depth_strokes;
+  UnmendedDepth unmended;          // imported map before its strokes
   bool is_depth_imported = false;  // the depth map was not made from panorama and depth_options
   std::shared_ptr<const FootageRecord> footage;  // how the panorama was made; null: not known
 };

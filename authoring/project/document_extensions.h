@@ -19,6 +19,9 @@ inline constexpr const char* kDepthMadeKey = "x-depth-made";
 // Puts these keys as they are for this document.
 void PutDocumentKeys(Document& document);
 
+// Puts the key of the files of the unmended depth only.
+void PutUnmendedKey(Document& document);
+
 // Fingerprint as JSON text, over width, height and relief, however the file packs them.
 std::string DepthFingerprint(const DepthMap& depth);
 

@@ -13,6 +13,7 @@
 #include "simulation/core/option_fields.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/files/archive_io.h"
+#include "simulation/scene/files/scene_files.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
 
@@ -41,6 +42,43 @@ Document DocumentFromPanorama(const fs::path& picture) {
       fs::absolute(picture), document.panorama, {}};
   return document;
 }
+
+namespace {
+
+// The imported map before its strokes. Where it cannot be read the map that is shown holds its
+// strokes for good, as in scenes of earlier versions.
+void ReadUnmended(Document& document) {
+  if (!document.is_depth_imported || !document.depth_strokes) return;
+  const auto names = UnmendedFilesOf(document.scene);
+  const auto read = [&](const char* word, fs::path& name, auto& map, const auto& from) {
+    const auto at = names.find(word);
+    if (at == names.end()) return;
+    name = at->second;
+    map = Share(from(FileOf(document, name)));
+    RequireSameSize(*document.depth, *map, FileOf(document, name));
+  };
+  UnmendedDepth unmended;
+  try {
+    read("depth", unmended.depth_file, unmended.depth, ReadDepthMap);
+    read("sigma", unmended.sigma_file, unmended.sigma, ReadDepthSigma);
+    read("origin", unmended.origin_file, unmended.origin, ReadOriginMap);
+  } catch (const Error&) {
+    unmended = {};
+  }
+  if (!unmended.depth) {
+    document.depth_strokes = nullptr;
+    return;
+  }
+  const auto note = [&](const fs::path& name, const std::shared_ptr<const void>& part) {
+    if (part) document.files[name.generic_string()].part = part;
+  };
+  note(unmended.depth_file, unmended.depth);
+  note(unmended.sigma_file, unmended.sigma);
+  note(unmended.origin_file, unmended.origin);
+  document.unmended = std::move(unmended);
+}
+
+}  // namespace
 
 Document OpenDocument(const fs::path& file) {
   if (IsOneOf(LowerExtension(file), {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"}) &&
@@ -71,6 +109,7 @@ Document OpenDocument(const fs::path& file) {
     } catch (const Error&) {
       document.depth_strokes = nullptr;
     }
+  ReadUnmended(document);
   return document;
 }
 

@@ -19,6 +19,7 @@
 #include "simulation/core/option_fields.h"
 #include "simulation/scene/backdrop/clean_picture.h"
 #include "simulation/scene/files/archive_io.h"
+#include "simulation/scene/files/scene_files.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/json/lens_io.h"
@@ -214,6 +215,7 @@ class Saving {
     Backdrop& backdrop = after_.scene.backdrop;
     if (!after_.depth || after_.depth->empty()) {
       SetDepth(after_, nullptr);  // nothing is left that its error or origins describe
+      after_.unmended = {};
       backdrop.depth.clear();
       return;
     }
@@ -228,6 +230,13 @@ class Saving {
     if (after_.depth_origin)
       RequireSameSize(*after_.depth, *after_.depth_origin, folder_ / backdrop.depth_origin);
     SaveMap(backdrop.depth_origin, "depth-origin.png", after_.depth_origin, HoldsOrigins,
+            WriteOriginMap);
+    UnmendedDepth& unmended = after_.unmended;
+    if (!after_.is_depth_imported || !after_.depth_strokes) unmended = {};
+    SaveMap(unmended.depth_file, "depth-unmended.tiff", unmended.depth, HoldsDepth, write_depth);
+    SaveMap(unmended.sigma_file, "depth-sigma-unmended.tiff", unmended.sigma, HoldsSigma,
+            write_depth);
+    SaveMap(unmended.origin_file, "depth-origin-unmended.png", unmended.origin, HoldsOrigins,
             WriteOriginMap);
   }
 
@@ -368,6 +377,20 @@ void PutDocumentKeys(Document& document) {
   extensions.erase(kDepthMadeKey);
   if (document.depth && !document.depth->empty() && !document.is_depth_imported)
     extensions[kDepthMadeKey] = DepthFingerprint(*document.depth);
+  PutUnmendedKey(document);
+}
+
+void PutUnmendedKey(Document& document) {
+  auto& extensions = document.scene.extensions;
+  extensions.erase(kUnmendedDepthKey);
+  const UnmendedDepth& unmended = document.unmended;
+  if (!unmended.depth) return;
+  nlohmann::json files = nlohmann::json::object();
+  for (const auto& [word, file] :
+       {std::pair("depth", &unmended.depth_file), std::pair("sigma", &unmended.sigma_file),
+        std::pair("origin", &unmended.origin_file)})
+    if (!file->empty()) files[word] = file->generic_string();
+  extensions[kUnmendedDepthKey] = files.dump();
 }
 
 std::string DepthFingerprint(const DepthMap& depth) {

@@ -12,10 +12,11 @@ std::size_t BytesOfNewParts(const Document& document, std::set<const void*>& see
   std::size_t bytes = 0;
   const auto is_new = [&](const void* part) { return part && seen.insert(part).second; };
   if (is_new(document.panorama.get())) bytes += document.panorama->rgb.capacity();
-  if (is_new(document.depth.get())) bytes += document.depth->relief.capacity() * sizeof(float);
-  if (is_new(document.depth_sigma.get()))
-    bytes += document.depth_sigma->relief.capacity() * sizeof(float);
-  if (is_new(document.depth_origin.get())) bytes += document.depth_origin->origin.capacity();
+  for (const auto& map :
+       {document.depth, document.depth_sigma, document.unmended.depth, document.unmended.sigma})
+    if (is_new(map.get())) bytes += map->relief.capacity() * sizeof(float);
+  for (const auto& map : {document.depth_origin, document.unmended.origin})
+    if (is_new(map.get())) bytes += map->origin.capacity();
   if (is_new(document.footage.get())) bytes += document.footage->report.capacity();
   for (const auto& surface : document.surfaces)
     if (is_new(surface.get()))

@@ -52,6 +52,7 @@ class History {
   void MarkSaved(Document saved);
   // Differs for each state of the document, and is the same again after undo and redo.
   long long StateId() const { return steps_[position_].id; }
+  long long IdOf(int position) const { return steps_[static_cast<std::size_t>(position)].id; }
   bool IsSaved() const { return steps_[position_].id == saved_id_; }
   // Steps between the current document and the one that was saved; all of them where that one is
   // gone.

@@ -81,6 +81,11 @@ void IncrementalCopy::Write(const Document& document) {
   keep(backdrop.depth, next.depth);
   keep(backdrop.depth_sigma, next.depth_sigma);
   keep(backdrop.depth_origin, next.depth_origin);
+  UnmendedDepth& unmended = next.unmended;
+  keep(unmended.depth_file, unmended.depth);
+  keep(unmended.sigma_file, unmended.sigma);
+  keep(unmended.origin_file, unmended.origin);
+  PutUnmendedKey(next);
   keep(backdrop.footage, next.footage);
   if (!next.lens) keep(next.scene.scope.lens, nullptr);  // else it is written from memory
   for (std::size_t i = 0; i < next.scene.tissues.size(); ++i) {

@@ -73,6 +73,7 @@ MicroGroup ReachMicro(bool quick);      // reach of scope and instrument
 MicroGroup SurfaceMicro(bool quick);    // checks and filling of surfaces
 MicroGroup KernelMicro(bool quick);     // assembly and matrix products of tissue
 MicroGroup ObserverMicro(bool quick);   // frames of an attempt
+MicroGroup BrushMicro(bool quick);      // a stroke on a depth map
 
 // Throws Error(kBadArgument) when no group is named so.
 MicroBench RunMicroBench(const MicroBenchOptions& options, const Progress& progress);

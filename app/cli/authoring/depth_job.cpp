@@ -43,16 +43,17 @@ DepthMap Imported(const DepthJob& job, const ColourImage& panorama) {
 // Mends the map by the strokes, as the editor would. Masks of an imported map are closed from their
 // surround; an estimate has been made around them.
 void Mend(const DepthJob& job, const authoring::DepthStrokes& strokes, const ColourImage& panorama,
-          DepthMap& depth) {
+          DepthMap& depth, DepthMap& sigma) {
   const Projection projection = authoring::GuessProjection(panorama.width, panorama.height);
   const authoring::MendedScene scene{panorama, projection, MetresFromMm(job.backdrop_mm)};
-  authoring::MendedDepth mended{std::move(depth), {}, {}};
+  authoring::MendedDepth mended{std::move(depth), std::move(sigma), {}};
   if (job.import.empty())
     authoring::ReplayStrokes(strokes, scene, mended);
   else
     for (const authoring::DepthStroke& stroke : strokes)
       authoring::ApplyStroke(stroke, scene, mended);
   depth = std::move(mended.relief);
+  sigma = std::move(mended.sigma);
 }
 
 void Run(const DepthJob& job) {
@@ -63,8 +64,8 @@ void Run(const DepthJob& job) {
           ? authoring::DepthStrokes()
           : authoring::StrokesFromText(ReadWholeFile(job.strokes, kMostJsonBytes), job.strokes);
   if (!job.import.empty()) {
-    DepthMap depth = Imported(job, panorama);
-    Mend(job, strokes, panorama, depth);
+    DepthMap depth = Imported(job, panorama), sigma;
+    Mend(job, strokes, panorama, depth, sigma);
     WriteDepthMap(job.output, depth);
     if (job.output != "-")
       fmt::print("{}: {} x {} px from {}, {} strokes\n", job.output, depth.width, depth.height,
@@ -80,7 +81,7 @@ void Run(const DepthJob& job) {
                 "this picture is nothing but dark surround; lower --surround-threshold or take "
                 "another picture",
                 job.panorama);
-  const DepthMap sigma =
+  DepthMap sigma =
       job.noise.empty() ? DepthMap() : authoring::NoiseOfDepth(depth, job.options.texture_size);
   if (!job.noise.empty() && sigma.empty())
     throw Error(Code::kBadImage,
@@ -89,7 +90,7 @@ void Run(const DepthJob& job) {
                     : "the relief has no structure finer than --texture-size, so it states no "
                       "noise; leave out --noise",
                 job.panorama);
-  Mend(job, strokes, panorama, depth);
+  Mend(job, strokes, panorama, depth, sigma);
   if (!sigma.empty()) WriteDepthMap(job.noise, sigma);
   WriteDepthMap(job.output, depth);
   const auto warn = [&](const char* sentence) {

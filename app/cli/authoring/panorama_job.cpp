@@ -30,6 +30,8 @@
 #include "authoring/project/estimated_depth.h"
 #include "authoring/relief/make/relief_panorama.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
+#include "simulation/scene/files/archive_io.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/json/lens_io.h"
 
@@ -39,7 +41,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PanoramaJob {
-  std::string lens, output, report, scene, ties;
+  std::string lens, output, report, scene, ties, places;
   std::vector<std::string> joined;
   std::optional<authoring::PixelBox> crop;
   // Whether the panorama lies over a measured relief; auto: where frames fit no plane, the clip
@@ -87,6 +89,19 @@ void WriteScene(const PanoramaJob& job, const authoring::PanoramaReport& report,
     throw Error(Code::kCancelled, "stopped; the panorama was written, and no scene", panorama);
   }
   authoring::SaveDocument(document, job.scene);
+}
+
+// Report of an earlier run: a file of --report, or the one that a scene keeps.
+authoring::PanoramaReport ReadKnown(const fs::path& place) {
+  if (!fs::is_directory(place) && !IsArchive(place))
+    return authoring::ReportFromJson(ReadWholeFile(place, kMostJsonBytes), place);
+  const authoring::Document document = authoring::OpenDocument(place);
+  if (!document.footage || document.footage->report.empty())
+    throw Error(Code::kBadScene,
+                "the scene does not say how its panorama was made; give a report of "
+                "`panorama --report`",
+                place);
+  return authoring::ReportFromJson(document.footage->report, place);
 }
 
 authoring::ReliefResult MeasureRelief(const PanoramaJob& job, const Progress& progress) {
@@ -158,6 +173,14 @@ void Run(PanoramaJob job) {
   if (!job.lens.empty()) job.request.lens = ReadLens(job.lens);
   job.request.excluded = {job.excluded.begin(), job.excluded.end()};
   job.request.joined = {job.joined.begin(), job.joined.end()};
+  if (!job.places.empty()) {
+    const auto known = std::make_shared<const authoring::PanoramaReport>(ReadKnown(job.places));
+    // Self-calibration may have replaced the lens.
+    if (!known->is_lens_guessed) job.request.lens = known->lens;
+    job.request.options.self_calibrate = false;
+    job.relief = "no";
+    job.request.known = known;
+  }
   if (!job.ties.empty()) job.request.ties = authoring::ReadTies(job.ties);
   const Progress progress = TerminalProgress();
   MadePanorama made = BestPanorama(job, progress);
@@ -240,6 +263,11 @@ void AddPanoramaJob(CLI::App& program) {
   files->Input(job->add_option("--ties", own->ties,
                                "JSON: two or more pairs of points for each frame that did not "
                                "register; `check --ties-schema` describes it."));
+  CLI::Option* places = files->Input(job->add_option(
+      "--places", own->places,
+      "Report of an earlier run, or a scene that keeps it: its frames keep their places, and only "
+      "frames of --ties are placed. Frames that were tied before need their ties again."));
+  places->excludes("--lens");
   job->add_option_function<std::vector<std::string>>(
          "--mask",
          [own](const std::vector<std::string>& boxes) {
@@ -269,6 +297,8 @@ void AddPanoramaJob(CLI::App& program) {
           "--relief",
           "a relief is measured from one clip without tie points; leave out --join and "
           "--ties, or say --relief no");
+    if (own->relief == "yes" && !own->places.empty())
+      throw CLI::ValidationError("--relief", "yes measures all places anew; leave out --places");
     if (own->relief == "yes" && own->lens.empty())
       throw CLI::ValidationError("--relief", "yes needs --lens; calibrate one with `lens`");
     Run(*own);

@@ -1,4 +1,7 @@
 // The looks of the file browser (app/platform/file_browser_model.h).
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
 #include <utility>
 
 #include <GLFW/glfw3.h>
@@ -6,6 +9,7 @@
 #include <imgui_stdlib.h>
 
 #include "app/editor/panels/panels.h"
+#include "app/files/browse_preview.h"
 #include "app/state/command.h"
 
 namespace arthro::app {
@@ -92,9 +96,45 @@ void FolderField(Ui& ui, BrowseDialog& dialog, bool enter) {
   }
 }
 
+// Folders that are one click away.
+void Places(Ui& ui, EditorState& state, FileBrowserModel& model) {
+  ImGui::SetNextItemWidth(ui.Px(110));
+  const bool is_open =
+      ImGui::BeginCombo("##places", ui.In("Places").c_str(), ImGuiComboFlags_HeightLarge);
+  RecordItem(ui, "Places", true, "", WidgetKind::kCombo);
+  if (!is_open) return;
+  const char* home = std::getenv("HOME");
+  for (const BrowsePlace& place :
+       BrowsePlaces(home != nullptr ? home : "", state.recent.Existing())) {
+    if (ListEntry(ui, place.words, place.folder == model.folder())) {
+      model.GoTo(place.folder);
+      model.file_name.clear();
+    }
+    Tooltip(ui, place.folder.string().c_str());
+  }
+  ImGui::EndCombo();
+}
+
+// Picture and words of the chosen entry.
+void Preview(Ui& ui, const EditorState& state, const PictureTextureOf& texture_of) {
+  if (!state.browsed) return;
+  const FilePreview& shown = state.browsed->shown;
+  const float width = ImGui::GetContentRegionAvail().x;
+  if (const unsigned texture = shown.picture ? texture_of(shown.picture) : 0; texture != 0) {
+    const float scale =
+        width / static_cast<float>(std::max(shown.picture->width, shown.picture->height));
+    ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture)),
+                 {scale * static_cast<float>(shown.picture->width),
+                  scale * static_cast<float>(shown.picture->height)});
+    RecordItem(ui, "Preview", true, shown.file.filename().string(), WidgetKind::kPicture);
+  }
+  if (!shown.words.empty()) QuietText(ui, shown.words);
+}
+
 }  // namespace
 
-void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
+void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog,
+                  const PictureTextureOf& texture_of) {
   FileBrowserModel& model = dialog.model;
   Heading(ui, dialog.title);
   const bool enter = DialogKeyPressed(GLFW_KEY_ENTER);
@@ -104,6 +144,8 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
   ImGui::SameLine();
   if (Button(ui, "Home"))
     if (const char* home = std::getenv("HOME")) model.GoTo(home);
+  ImGui::SameLine();
+  Places(ui, state, model);
   ImGui::SameLine();
   if (Button(ui, "New folder…")) dialog.asks_folder_name = !dialog.asks_folder_name;
   ImGui::SameLine();
@@ -129,9 +171,17 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
   const float line = ImGui::GetFrameHeightWithSpacing();
   const float foot =
       2.2f * line + (dialog.asks_overwrite ? 2 * line : 0) + (model.problem().empty() ? 0 : line);
-  ImGui::BeginChild("list", {0, -foot}, false);
+  const bool has_room = ImGui::GetContentRegionAvail().x > ui.Px(700);
+  const float preview = has_room ? ui.Px(220) : 0;
+  ImGui::BeginChild("list", {-preview, -foot}, false);
   bool accept = Entries(ui, model);
   ImGui::EndChild();
+  if (has_room) {
+    ImGui::SameLine();
+    ImGui::BeginChild("preview", {0, -foot}, false);
+    Preview(ui, state, texture_of);
+    ImGui::EndChild();
+  }
 
   const float filter = model.filters().size() > 1 ? ui.Px(150) : 0;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - filter - (filter > 0 ? ui.Px(8) : 0));

@@ -187,16 +187,12 @@ void Draw(Ui& ui, EditorState& state, OpenElsewhereDialog& dialog) {
   if (copy) EditCopy(state);
 }
 
-void Draw(Ui& ui, EditorState& state, HistoryDialog& dialog) { HistoryWindow(ui, state, dialog); }
-
-void Draw(Ui& ui, EditorState& state, BrowseDialog& dialog) { BrowseWindow(ui, state, dialog); }
-
 // Width at scale 1; a height of 0 fits the content.
 struct WindowSize {
   double width = 460, height = 0;
 };
 WindowSize SizeOf(const Dialog& dialog) {
-  if (std::holds_alternative<BrowseDialog>(dialog)) return {760, 540};
+  if (std::holds_alternative<BrowseDialog>(dialog)) return {940, 560};
   if (std::holds_alternative<HelpDialog>(dialog)) return {760, 640};
   if (std::holds_alternative<HistoryDialog>(dialog)) return {820, 560};
   if (std::holds_alternative<ErrorDialog>(dialog)) return {560, 0};
@@ -212,7 +208,7 @@ void Working(Ui& ui, EditorState& state) {
 
 }  // namespace
 
-void Dialogs(Ui& ui, EditorState& state) {
+void Dialogs(Ui& ui, EditorState& state, const PictureTextureOf& texture_of) {
   const bool working = state.jobs.busy() && state.jobs.blocks_editing();
   if (state.dialogs.empty() && !working) return;
   constexpr const char* kId = "###dialog";
@@ -237,7 +233,17 @@ void Dialogs(Ui& ui, EditorState& state) {
   if (working)
     Working(ui, state);
   else
-    std::visit([&](auto& dialog) { Draw(ui, state, dialog); }, state.dialogs.back());
+    std::visit(
+        [&](auto& dialog) {
+          using Kind = std::decay_t<decltype(dialog)>;
+          if constexpr (std::is_same_v<Kind, BrowseDialog>)
+            BrowseWindow(ui, state, dialog, texture_of);
+          else if constexpr (std::is_same_v<Kind, HistoryDialog>)
+            HistoryWindow(ui, state, dialog, texture_of);
+          else
+            Draw(ui, state, dialog);
+        },
+        state.dialogs.back());
   const bool still_working = state.jobs.busy() && state.jobs.blocks_editing();
   if (state.dialogs.empty() && !still_working) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();

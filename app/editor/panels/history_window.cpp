@@ -1,5 +1,6 @@
 // Steps of the history, earlier saves and snapshots.
 #include <algorithm>
+#include <cstdint>
 
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -7,12 +8,31 @@
 
 #include "app/editor/panels/panels.h"
 #include "app/files/earlier_versions.h"
+#include "app/files/step_pictures.h"
 #include "app/state/command.h"
 
 namespace arthro::app {
 namespace {
 
-void Steps(Ui& ui, EditorState& state) {
+// A row of the list: the picture of the step and its name.
+bool Row(Ui& ui, const std::string& label, const std::string& words, bool is_current,
+         unsigned texture) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float side = ui.Px(44), gap = ui.Px(3);
+  const bool is_clicked =
+      ImGui::Selectable(("###" + label).c_str(), is_current, 0, {0, side + 2 * gap});
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  if (texture != 0)
+    draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture)),
+                   {corner.x + gap, corner.y + gap},
+                   {corner.x + gap + side, corner.y + gap + side});
+  draw->AddText(
+      {corner.x + side + 4 * gap, corner.y + gap + 0.5f * (side - ImGui::GetTextLineHeight())},
+      ImGui::GetColorU32(ImGuiCol_Text), words.c_str());
+  return is_clicked;
+}
+
+void Steps(Ui& ui, EditorState& state, const PictureTextureOf& texture_of) {
   Heading(ui, "Steps");
   ImGui::BeginChild("steps", {0, 0}, true);
   const std::vector<std::string> names = state.history.StepNames();
@@ -22,8 +42,9 @@ void Steps(Ui& ui, EditorState& state) {
     const std::string& name = names[static_cast<std::size_t>(step)];
     const std::string label = std::to_string(step) + "  " + name;
     ImGui::PushStyleColor(ImGuiCol_Text, OnGround(step > current ? kQuiet : kBright));
-    if (ImGui::Selectable((std::to_string(step) + "  " + ui.In(name) + "###" + label).c_str(),
-                          step == current))
+    const auto picture = StepPicture(state, step);
+    if (Row(ui, label, std::to_string(step) + "  " + ui.In(name), step == current,
+            picture ? texture_of(picture) : 0))
       GoToStep(state, step);
     ImGui::PopStyleColor();
     RecordItem(ui, label, true, step == current ? "on" : "off");
@@ -46,11 +67,12 @@ const authoring::SceneVersion* Versions(Ui& ui, const HistoryDialog& dialog) {
 
 }  // namespace
 
-void HistoryWindow(Ui& ui, EditorState& state, HistoryDialog& dialog) {
+void HistoryWindow(Ui& ui, EditorState& state, HistoryDialog& dialog,
+                   const PictureTextureOf& texture_of) {
   const float foot = ImGui::GetFrameHeightWithSpacing() + ui.Px(6);
   const float half = 0.5f * ImGui::GetContentRegionAvail().x - ui.Px(8);
   ImGui::BeginChild("history", {half, -foot});
-  Steps(ui, state);
+  Steps(ui, state, texture_of);
   ImGui::EndChild();
   ImGui::SameLine(0, ui.Px(16));
 

@@ -30,18 +30,21 @@ void TopBar(Ui& ui, EditorState& state, const Area& area);
 // `notice`: what the pictures could not show as given.
 void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& notice);
 void StepsPanel(Ui& ui, EditorState& state, const Area& area);
-void Dialogs(Ui& ui, EditorState& state);
 // `texture_of` gives a picture's texture; 0 where it has none.
 using PictureTextureOf = std::function<unsigned(const std::shared_ptr<const ColourImage>&)>;
+void Dialogs(Ui& ui, EditorState& state, const PictureTextureOf& texture_of);
 void StartPagePanel(Ui& ui, EditorState& state, const Area& area,
                     const PictureTextureOf& texture_of);
 void FileMenu(Ui& ui, EditorState& state);        // its button, and the menu while it is open
 bool SettingsWindow(Ui& ui, EditorState& state);  // true: it is closed
 
 // ---- Dialogs with much in them. ----
-void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog);  // may end the dialog
+// Both may end the dialog.
+void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog,
+                  const PictureTextureOf& texture_of);
+void HistoryWindow(Ui& ui, EditorState& state, HistoryDialog& dialog,
+                   const PictureTextureOf& texture_of);
 void HelpWindow(Ui& ui, EditorState& state);
-void HistoryWindow(Ui& ui, EditorState& state, HistoryDialog& dialog);  // may end the dialog
 
 // ---- The pictures. `texture` is an OpenGL texture with its first row at the bottom. ----
 struct PictureInput {

@@ -11,15 +11,12 @@
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/lessons/exercise_edit.h"
 #include "app/steps/lessons/lessons_step.h"
-#include "app/steps/portals/portals_step.h"
-#include "app/steps/portals/reach_board.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/cut/tissue_cut.h"
 #include "app/steps/tissue/fault_board.h"
 #include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/landmark_mode.h"
 #include "app/steps/tissue/tissue_balls.h"
-#include "app/view/exposure/footage_light.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
 #include "simulation/scope/window_lens.h"
@@ -115,77 +112,6 @@ Picture ShownPicture(const EditorState& state, const simulation::ScopeOptics& op
 }
 
 }  // namespace
-
-void Pictures::TakeBackdrop(const EditorState& state) {
-  const authoring::Document& document = state.document();
-  const DepthCache& cache = state.steps.depth->cache;
-  const bool preview = cache.preview && cache.preview_panorama;
-  const auto& panorama = preview ? cache.preview_panorama : document.panorama;
-  const auto& depth = preview ? cache.preview : document.depth;
-  const std::shared_ptr<const DepthMap> sigma = preview ? nullptr : document.depth_sigma;
-  const DepthMap& relief = OrEmpty(depth);
-  const Backdrop& wanted = document.scene.backdrop;
-  const bool as_filmed = state.steps.portals->shows_as_filmed && !state.practice;
-  const bool same_place = backdrop_ == wanted && as_filmed == as_filmed_;
-  const std::shared_ptr<const ColourImage> reach = ReachPictureOf(state);
-  const bool same_reach = reach == reach_;
-  const bool same_panorama = panorama == panorama_ && panorama;
-  const bool same_depth = depth == depth_ && sigma == sigma_;
-  const bool same_scene = panorama == panorama_ && same_depth && same_place;
-  if (same_scene && same_reach) return TakeQuietRelief();
-  Backdrop shown = WithKnownLight(wanted, relief);
-  if (as_filmed) shown.relight = 0;
-  if (preview)
-    shown.projection =
-        Shrunk(shown.projection, static_cast<double>(document.panorama->width) / panorama->width);
-  // The panorama is by far the most to upload; a slider changes only its place or the relief.
-  const bool is_kept = same_scene || (same_panorama && scope_.SetGeometry(shown));
-  const bool is_other_relief = !is_kept || !same_depth;
-  std::shared_ptr<const DrawnRelief> made;
-  if (is_other_relief && panorama && depth && sigma) {
-    const ReliefWork::Source source{depth, sigma, {panorama->width, panorama->height}, shown};
-    made = relief_work_.Find(source);
-    const bool is_awaited = !made;
-    // The last relief of this panorama stays until the noise of the new one is removed.
-    if (is_awaited && shown_of_ == document.panorama && same_place && same_reach) return;
-    noisy_.reset();
-    if (is_awaited) {
-      noisy_ = source;
-      made = std::make_shared<const DrawnRelief>(
-          MakeDrawnRelief(source.panorama_size, *depth, *sigma, shown, ReliefNoise::kKept));
-    }
-  } else if (is_other_relief) {
-    noisy_.reset();
-  }
-  panorama_ = panorama;
-  shown_of_ = document.panorama;
-  depth_ = depth;
-  sigma_ = sigma;
-  backdrop_ = wanted;
-  as_filmed_ = as_filmed;
-  reach_ = reach;
-  changed_ = true;
-  if (!panorama) return;
-  const ColourImage& coloured = reach && !preview ? *reach : *panorama;
-  if (!is_kept)
-    scope_.SetBackdrop(*panorama, relief, shown, OrEmpty(sigma), made.get());
-  else if (!same_depth)
-    scope_.SetDepth(relief, OrEmpty(sigma), made.get());
-  if (is_kept && same_reach)
-    overview_.SetRelief(relief, shown);
-  else
-    overview_.SetBackdrop(coloured, relief, shown);
-}
-
-// The relief that was shown with its noise is shown without it once that is removed.
-void Pictures::TakeQuietRelief() {
-  if (!noisy_) return;
-  const auto made = relief_work_.Find(*noisy_);
-  if (!made) return;
-  noisy_.reset();
-  scope_.SetDepth(OrEmpty(depth_), OrEmpty(sigma_), made.get());
-  changed_ = true;
-}
 
 void Pictures::TakeTissues(const EditorState& state) {
   const authoring::Document& document = state.document();
@@ -309,7 +235,7 @@ void Pictures::TakeLiveTissues(const EditorState& state) {
 }
 
 void Pictures::Take(const EditorState& state) {
-  TakeBackdrop(state);
+  changed_ = backdrop_.Take(state, scope_, overview_) || changed_;
   TakeTissues(state);
   HideOutlined(state);
   TakeLiveTissues(state);
@@ -342,7 +268,7 @@ bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
   if (flows) picture.disturbances.time = flow_.Advance(state.practice->snapshot().t, has_changed);
   picture_ = picture;
   full_size_ = size;
-  has_picture_ = panorama_ != nullptr;
+  has_picture_ = backdrop_.has_panorama();
   is_timed_ = false;
   if (!has_picture_) return false;
   const int rays = rest_.RaysDue(has_changed, seconds);
@@ -383,7 +309,7 @@ void Pictures::Record(LiveFilm& film, double t) {
 
 bool Pictures::DrawOverview(EditorState& state, int width, int height) {
   Take(state);
-  has_overview_ = panorama_ != nullptr;
+  has_overview_ = backdrop_.has_panorama();
   if (!has_overview_) return false;
   if (document_number_ != state.document_number || overview_fits_ != state.overview_fits) {
     document_number_ = state.document_number;

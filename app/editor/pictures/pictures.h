@@ -13,12 +13,12 @@
 #include "app/editor/pictures/footage_textures.h"
 #include "app/editor/pictures/picture_rest.h"
 #include "app/editor/pictures/render_scale.h"
+#include "app/editor/pictures/shown_backdrop.h"
 #include "app/recording/live_film.h"
 #include "app/state/editor_state.h"
 #include "app/steps/budget/frame_budget.h"
 #include "app/steps/tissue/cut/cut_skins.h"
 #include "app/view/arthroscopic_view.h"
-#include "app/view/backdrop/relief_work.h"
 #include "app/view/live_tissues.h"
 #include "app/view/overview/overview.h"
 #include "authoring/tissue/surface_faults.h"
@@ -32,9 +32,9 @@ class Pictures {
   explicit Pictures(bool steady) : steady_(steady) {}
 
   // Once a frame, before the pictures: takes over what was made beside the window.
-  bool Collect() { return relief_work_.Collect(); }
+  bool Collect() { return backdrop_.Collect(); }
   // Something is being made beside the window.
-  bool busy() const { return relief_work_.busy(); }
+  bool busy() const { return backdrop_.busy(); }
   // Draws the scope's picture to fill `size` pixels a side, at `seconds` of the window's clock.
   // True when it is not the final one yet: call again soon.
   bool DrawScope(const EditorState& state, int size, double seconds);
@@ -62,6 +62,8 @@ class Pictures {
   unsigned scope_texture() const { return has_picture_ ? scope_.TextureId() : 0; }
   // The last picture without the chosen tissue; 0 where that is not faded.
   unsigned bare_texture() const { return bare_ ? bare_->id() : 0; }
+  // The scope's picture, read from the graphics card.
+  ColourImage ReadScope() const { return scope_.ReadPixels(); }
   int scope_edge() const { return drawn_size_; }       // px of that texture
   long scope_version() const { return drawn_count_; }  // grows with each picture
   const simulation::ScopeView& view() const { return picture_.view; }
@@ -77,8 +79,6 @@ class Pictures {
 
  private:
   void Take(const EditorState& state);
-  void TakeBackdrop(const EditorState& state);
-  void TakeQuietRelief();
   void TakeTissues(const EditorState& state);
   void TakeCuts(const authoring::Document& document);
   void ShowPlaces(const EditorState& state);
@@ -126,14 +126,7 @@ class Pictures {
   bool is_painting_ = false;  // a drag over the overview paints on the depth map
   std::chrono::steady_clock::time_point overview_drawn_{};
   // Contents of the view.
-  std::shared_ptr<const ColourImage> panorama_;
-  std::shared_ptr<const ColourImage> shown_of_;  // panorama of the document at that time
-  std::shared_ptr<const DepthMap> depth_, sigma_;
-  ReliefWork relief_work_;
-  std::optional<ReliefWork::Source> noisy_;   // relief that is awaited without its noise
-  std::shared_ptr<const ColourImage> reach_;  // null: the panorama as it is
-  Backdrop backdrop_;
-  bool as_filmed_ = false;
+  ShownBackdrop backdrop_;
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces_;
   std::vector<Tissue> tissues_;
   std::vector<simulation::TissueLook> looks_;  // one per tissue

@@ -48,13 +48,14 @@ void PutMeasuredDepth(authoring::Document& document, const MeasuredBackdrop& mea
   document.depth_origin = measured.origin;
   backdrop.depth_origin = measured.origin ? "depth-origin.png" : "";
   document.is_depth_imported = true;
+  document.depth_strokes = nullptr;  // they mended the map that was there
+  document.unmended = {};
 }
 
 void PutMeasuredPanorama(authoring::Document& document, const MeasuredBackdrop& measured,
                          const std::optional<Lens>& lens) {
   document.panorama = measured.panorama;
-  document.depth_strokes = nullptr;  // they mended the map that was there
-  PutFootage(document, nullptr);     // it tells of the panorama before
+  PutFootage(document, nullptr);  // it tells of the panorama before
   document.scene.backdrop.panorama = "panorama.png";
   document.scene.backdrop.projection = measured.projection;
   PutMeasuredDepth(document, measured);

@@ -5,14 +5,17 @@
 #include <limits>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/state/measured_depth.h"
+#include "app/state/edits.h"
+#include "app/state/footage/measured_backdrop.h"
 #include "app/steps/depth/depth_overlay.h"
 #include "app/steps/depth/depth_step.h"
+#include "authoring/adjustment/scale_backdrop.h"
 #include "authoring/relief/editing/relief_scale.h"
 #include "simulation/core/error.h"
 #include "simulation/core/same_options.h"
@@ -150,8 +153,15 @@ void SetScale(EditorState& state) {
   backdrop.depth = Share(authoring::ScaledMap(*document.depth, factor));
   if (document.depth_sigma)
     backdrop.sigma = Share(authoring::ScaledMap(*document.depth_sigma, factor));
-  SetMeasuredDepth(state, fmt::format("Set the scale by {:g} mm", MmFromMetres(chosen.metres)),
-                   backdrop);
+  Edit(state, fmt::format("Set the scale by {:g} mm", MmFromMetres(chosen.metres)), "",
+       [&](Document& next) {
+         const authoring::SharedStrokes strokes = next.depth_strokes;
+         const authoring::UnmendedDepth unmended = next.unmended;
+         PutMeasuredDepth(next, backdrop);
+         next.depth_strokes = strokes;
+         next.unmended = unmended;
+         authoring::ScaleStrokes(next, factor);
+       });
   chosen.is_given = true;
   state.message = fmt::format(
       "The scale changed: the radius of the backdrop was {:.1f} mm and is {:.1f} mm "
@@ -169,24 +179,57 @@ void ForgetLengths(EditorState& state) {
 
 namespace {
 
-// Draws the part of the map that the stroke under way changes.
+// Draws the part of the map that the stroke under way changes: of what was drawn before, only the
+// pixels that its last piece reaches.
 void KeepPatchFresh(EditorState& state) {
   DepthBoard& board = state.steps.depth->board;
   DepthBoard::Patch& patch = board.patch;
-  if (patch.version == board.brush.version) return;
-  patch = {};
-  patch.version = board.brush.version;
-  if (!board.brush.live || board.brush.changed.is_empty()) return;
-  const CoarseMap coarse{*board.brush.live, *board.brush.coarse_picture, board.brush.stride};
+  DepthBrush& brush = board.brush;
+  if (patch.version == brush.version) return;
+  if (!brush.growing || brush.changed.is_empty()) {
+    patch = {};
+    patch.version = brush.version;
+    return;
+  }
+  const CoarseMap coarse{brush.growing->depth().relief, *brush.coarse_picture, brush.stride};
   // A slope is drawn from pixels beside it.
-  const authoring::PixelBounds box = authoring::Grown(board.brush.changed, kShapeReach + 1,
-                                                      coarse.depth.width, coarse.depth.height);
-  patch.picture = Share(DrawCoarse(state.document(), board.layer, coarse, box));
+  const auto with_rim = [&](const PixelBounds& box) {
+    return Grown(box, kShapeReach + 1, coarse.depth.width, coarse.depth.height);
+  };
+  const bool is_first =
+      !patch.picture || patch.layer != board.layer || patch.stroke.lock() != brush.growing;
+  const PixelBounds box = with_rim(brush.changed), old = patch.box;
+  std::vector<PixelBounds> parts{box};
+  if (!is_first)
+    parts = {brush.fresh.is_empty() ? PixelBounds() : with_rim(brush.fresh),
+             {box.left, box.top, old.left, box.bottom},
+             {old.right, box.top, box.right, box.bottom},
+             {old.left, box.top, old.right, old.top},
+             {old.left, old.bottom, old.right, box.bottom}};
+  ColourImage picture(box.width(), box.height());
+  const auto put = [&](const ColourImage& part, const PixelBounds& place) {
+    for (int y = 0; y < part.height; ++y)
+      std::copy_n(part.at(0, y), 3 * static_cast<std::size_t>(part.width),
+                  picture.at(place.left - box.left, place.top - box.top + y));
+  };
+  if (!is_first) put(*patch.picture, old);
+  patch.drawn = 0;
+  for (const PixelBounds& part : parts) {
+    if (part.is_empty()) continue;
+    put(DrawCoarse(state.document(), board.layer, coarse, part), part);
+    patch.drawn += part.width() * part.height();
+  }
   const glm::dvec2 size =
       glm::dvec2(state.document().panorama->width, state.document().panorama->height) /
       static_cast<double>(coarse.stride);
+  patch.picture = Share(std::move(picture));
   patch.low = glm::dvec2(box.left, box.top) / size;
   patch.high = glm::dvec2(box.right, box.bottom) / size;
+  patch.box = box;
+  patch.layer = board.layer;
+  patch.stroke = brush.growing;
+  patch.version = brush.version;
+  brush.fresh = {};
 }
 
 void KeepComparedFresh(EditorState& state) {

@@ -81,7 +81,11 @@ struct DepthBoard {
   struct Patch {
     std::shared_ptr<const ColourImage> picture;
     glm::dvec2 low{0}, high{0};
+    PixelBounds box;  // part of the coarse map
+    MapLayer layer = MapLayer::kPicture;
+    std::weak_ptr<const authoring::GrowingStroke> stroke;
     long version = 0;  // version of the brush
+    int drawn = 0;     // pixels that the last change drew
   } patch;
 
   // Pictures beside the panorama, smaller than it.

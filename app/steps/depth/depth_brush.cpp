@@ -45,33 +45,41 @@ void BeginPreview(const Document& document, DepthBrush& brush) {
       coarse.at(x, y) = depth.at(column, row);
       std::copy_n(panorama.at(column, row), 3, picture.at(x, y));
     }
-  brush.before = Share(std::move(coarse));
-  brush.live = brush.before;
+  const double factor = static_cast<double>(panorama.width) / coarse.width;
+  const Backdrop& backdrop = document.scene.backdrop;
   brush.coarse_picture = Share(std::move(picture));
-  brush.changed = {};
+  // The stroke's points are shares of the panorama's width, so it fits the coarse map as it is.
+  brush.growing = std::make_shared<authoring::GrowingStroke>(
+      brush.stroke, brush.coarse_picture, Shrunk(backdrop.projection, factor), backdrop.radius,
+      MendedDepth{std::move(coarse), {}, {}});
+  brush.changed = brush.fresh = {};
+  brush.computed = 0;
 }
 
-// The stroke's points are shares of the panorama's width, so it fits the coarse map as it is.
-void UpdatePreview(const EditorState& state, DepthBrush& brush) {
-  if (!brush.before) return;
-  const Backdrop& backdrop = state.document().scene.backdrop;
-  const double factor = static_cast<double>(state.document().panorama->width) / brush.before->width;
-  const Projection projection = Shrunk(backdrop.projection, factor);
-  MendedDepth mended{*brush.before, {}, {}};
-  const authoring::StrokeReport report = authoring::ApplyStroke(
-      brush.stroke, {*brush.coarse_picture, projection, backdrop.radius}, mended);
-  brush.live = Share(std::move(mended.relief));
-  brush.changed = authoring::Joined(brush.changed, report.box);
+// Applies the piece of the line that ends at the new point.
+void ContinuePreview(DepthBrush& brush, const glm::dvec2& point) {
+  const authoring::StrokeReport report = brush.growing->Add({&point, 1});
+  brush.changed = Joined(brush.changed, report.box);
+  brush.fresh = Joined(brush.fresh, report.box);
+  brush.computed += report.read;
   ++brush.version;
 }
 
 void EndPreview(DepthBrush& brush) {
   brush.stroke.points.clear();
-  brush.before.reset();
-  brush.live.reset();
+  brush.growing.reset();
   brush.coarse_picture.reset();
-  brush.changed = {};
+  brush.changed = brush.fresh = {};
   ++brush.version;
+}
+
+// The first stroke on an imported map keeps the map as it is, with the files that hold it.
+void KeepUnmended(Document& document) {
+  if (document.unmended.depth) return;
+  const Backdrop& backdrop = document.scene.backdrop;
+  document.unmended = {document.depth, document.depth_sigma, document.depth_origin,
+                       backdrop.depth, backdrop.depth_sigma, backdrop.depth_origin};
+  document.depth_strokes = nullptr;
 }
 
 bool Fits(const Document& document) {
@@ -153,7 +161,7 @@ void PaintDepth(EditorState& state, const glm::dvec2& pixel) {
     return;
   }
   brush.stroke.points.push_back(point);
-  UpdatePreview(state, brush);
+  ContinuePreview(brush, point);
 }
 
 void EndStroke(EditorState& state) {
@@ -178,6 +186,7 @@ void EndStroke(EditorState& state) {
       stroke, {*document.panorama, backdrop.projection, backdrop.radius}, mended);
   if (report.touched == 0) return;
   Edit(state, name, "", [&](Document& next) {
+    if (next.is_depth_imported) KeepUnmended(next);
     add(next);
     next.depth = Share(std::move(mended.relief));
     if (next.depth_sigma) next.depth_sigma = Share(std::move(mended.sigma));
@@ -195,13 +204,24 @@ int StrokeCount(const EditorState& state) {
 }
 
 bool CanRemoveStrokes(const EditorState& state) {
-  return StrokeCount(state) > 0 && !state.document().is_depth_imported;
+  const Document& document = state.document();
+  return StrokeCount(state) > 0 && (!document.is_depth_imported || document.unmended.depth);
 }
 
 void RemoveStrokes(EditorState& state) {
   if (!CanRemoveStrokes(state)) return;
-  Edit(state, "Remove the strokes from the depth map", "",
-       [](Document& next) { next.depth_strokes = nullptr; });
+  Edit(state, "Remove the strokes from the depth map", "", [](Document& next) {
+    next.depth_strokes = nullptr;
+    if (!next.is_depth_imported) return;
+    const authoring::UnmendedDepth unmended = std::exchange(next.unmended, {});
+    Backdrop& backdrop = next.scene.backdrop;
+    next.depth = unmended.depth;
+    next.depth_sigma = unmended.sigma;
+    next.depth_origin = unmended.origin;
+    backdrop.depth = unmended.depth_file;
+    backdrop.depth_sigma = unmended.sigma_file;
+    backdrop.depth_origin = unmended.origin_file;
+  });
 }
 
 const char* WordOf(authoring::StrokeKind kind) {

@@ -10,7 +10,7 @@
 
 #include "app/state/editor_state.h"
 #include "authoring/alignment/scene_point.h"
-#include "authoring/depth/strokes/mend_depth.h"
+#include "authoring/depth/strokes/growing_stroke.h"
 
 namespace arthro::app {
 
@@ -18,12 +18,13 @@ struct DepthBrush {
   authoring::DepthStroke stroke;  // kind and size; its points while the button is down
   bool is_down() const { return !stroke.points.empty(); }
 
-  // The coarse map with the stroke under way, and the one without it. Null: no stroke.
-  std::shared_ptr<const DepthMap> before;
-  std::shared_ptr<const DepthMap> live;
-  std::shared_ptr<const ColourImage> coarse_picture;  // same size as these maps
+  // The stroke under way on a coarse copy of the map. Null: no stroke.
+  std::shared_ptr<authoring::GrowingStroke> growing;
+  std::shared_ptr<const ColourImage> coarse_picture;  // same size as its maps
   int stride = 1;                                     // pixels of the panorama per coarse pixel
-  authoring::PixelBounds changed;                     // part of the coarse map
+  PixelBounds changed;                                // part of the coarse map
+  PixelBounds fresh;                                  // part of it that was not drawn yet
+  long computed = 0;                                  // coarse pixels of all pieces of the stroke
   long version = 0;                                   // grows with each change of the stroke
   std::optional<glm::dvec2> pointed;  // px of the panorama under the pointer in a picture
 };
@@ -54,7 +55,8 @@ void CancelStroke(EditorState& state);
 
 // Strokes that the document holds.
 int StrokeCount(const EditorState& state);
-// Removes all strokes of a map that is made from the picture; an imported map holds them for good.
+// Shows the map as it was before all strokes. A map of a scene of an earlier version holds them for
+// good.
 bool CanRemoveStrokes(const EditorState& state);
 void RemoveStrokes(EditorState& state);
 

@@ -247,7 +247,7 @@ DrawnLayer DrawLayer(const authoring::Document& document, MapLayer layer) {
 }
 
 ColourImage DrawCoarse(const authoring::Document& document, MapLayer layer, const CoarseMap& coarse,
-                       const authoring::PixelBounds& box) {
+                       const PixelBounds& box) {
   ColourImage picture(box.width(), box.height());
   Layer colours(document, layer, coarse.stride, &coarse.depth);
   for (int y = box.top; y < box.bottom; ++y)

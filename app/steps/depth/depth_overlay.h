@@ -23,7 +23,7 @@ struct CoarseMap {
 inline constexpr int kShapeReach = 4;
 // The layer on a box of the coarse map.
 ColourImage DrawCoarse(const authoring::Document& document, MapLayer layer, const CoarseMap& coarse,
-                       const authoring::PixelBounds& box);
+                       const PixelBounds& box);
 
 // The grey that the estimator begins with, and the relief that it makes before any stroke, near
 // white.

@@ -230,6 +230,7 @@ void MakeDepth(EditorState& state) {
   if (!document.panorama || !document.is_depth_imported) return;
   Edit(state, "Replace the imported depth map", "", [&](auto& next) {
     next.is_depth_imported = false;
+    next.unmended = {};
     TakeMadeBefore(state, next);
   });
 }

@@ -74,10 +74,7 @@ void TakeDepthImport(EditorState& state) {
   backdrop.projection = document.scene.backdrop.projection;
   backdrop.radius = document.scene.backdrop.radius;
   Edit(state, "Import the depth map " + import->file.filename().string(), "",
-       [&](authoring::Document& next) {
-         PutMeasuredDepth(next, backdrop);
-         next.depth_strokes = nullptr;  // they mended the map that was there
-       });
+       [&](authoring::Document& next) { PutMeasuredDepth(next, backdrop); });
   import.reset();
   state.steps.depth->import_words.clear();
 }

@@ -129,8 +129,90 @@ ColourImage ReducedPanorama(const ColourImage& image, int reduction) {
   return small;
 }
 
+namespace {
+
+// Texels of a relief along both axes: one per pixel when that is not too many.
+glm::ivec2 TexelsOf(int width, int height) {
+  const double shrink = std::max(1.0, double(std::max(width, height)) / kReliefSide);
+  return {std::max(1, static_cast<int>(std::lround(width / shrink))),
+          std::max(1, static_cast<int>(std::lround(height / shrink)))};
+}
+
+// Pixel of a map that a texel takes its value from.
+int PixelOf(int texel, int pixels, int texels) {
+  return std::min(static_cast<int>((texel + 0.5) * pixels / texels), pixels - 1);
+}
+
+}  // namespace
+
+DepthMap SampledRelief(const DepthMap& map) {
+  if (map.empty()) return {};
+  const glm::ivec2 size = TexelsOf(map.width, map.height);
+  DepthMap sampled(size.x, size.y);
+  PutSampled(map, {0, 0, map.width, map.height}, {map.width, map.height}, sampled);
+  return sampled;
+}
+
+void PutSampled(const DepthMap& part, const PixelBounds& box, const glm::ivec2& whole,
+                DepthMap& sampled) {
+  for (int y = 0; y < sampled.height; ++y) {
+    const int v = PixelOf(y, whole.y, sampled.height);
+    if (v < box.top || v >= box.bottom) continue;
+    for (int x = 0; x < sampled.width; ++x)
+      if (const int u = PixelOf(x, whole.x, sampled.width); u >= box.left && u < box.right)
+        sampled.at(x, y) = part.at(u - box.left, v - box.top);
+  }
+}
+
+void ShiftSampled(const DepthMap& before, const DepthMap& after, const PixelBounds& changed,
+                  DepthMap& sampled) {
+  constexpr int kReach = 4;  // px
+  const PixelBounds box = Grown(changed, kReach, after.width, after.height);
+  // Mean difference over the square about a pixel, by sums over rows and columns of the box.
+  const auto w = static_cast<std::size_t>(box.width()) + 1;
+  std::vector<double> sum(w * (static_cast<std::size_t>(box.height()) + 1), 0.0);
+  for (int y = box.top; y < box.bottom; ++y)
+    for (int x = box.left; x < box.right; ++x) {
+      const double step = static_cast<double>(after.at(x, y)) - before.at(x, y);
+      const std::size_t i = static_cast<std::size_t>(y - box.top + 1) * w +
+                            static_cast<std::size_t>(x - box.left + 1);
+      sum[i] = sum[i - 1] + sum[i - w] - sum[i - w - 1] + (std::isfinite(step) ? step : 0.0);
+    }
+  const auto mean = [&](int x, int y) {
+    const PixelBounds part{std::max(x - kReach, box.left), std::max(y - kReach, box.top),
+                           std::min(x + kReach + 1, box.right),
+                           std::min(y + kReach + 1, box.bottom)};
+    const auto at = [&](int column, int row) {
+      return sum[static_cast<std::size_t>(row - box.top) * w +
+                 static_cast<std::size_t>(column - box.left)];
+    };
+    return (at(part.right, part.bottom) - at(part.left, part.bottom) - at(part.right, part.top) +
+            at(part.left, part.top)) /
+           (static_cast<double>(part.width()) * part.height());
+  };
+  for (int y = 0; y < sampled.height; ++y) {
+    const int v = PixelOf(y, after.height, sampled.height);
+    if (v < box.top || v >= box.bottom) continue;
+    for (int x = 0; x < sampled.width; ++x) {
+      const int u = PixelOf(x, after.width, sampled.width);
+      if (u < box.left || u >= box.right) continue;
+      float& height = sampled.at(x, y);
+      if (std::isnan(height) || std::isnan(after.at(u, v)))
+        height = after.at(u, v);
+      else
+        height += static_cast<float>(mean(u, v));
+    }
+  }
+}
+
 ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap& depth,
                                 bool whole_turn, const DepthMap& sigma) {
+  return MakeReliefTexture(panorama_size, depth, SampledRelief(depth), whole_turn,
+                           SampledRelief(sigma));
+}
+
+ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap& depth,
+                                DepthMap drawn, bool whole_turn, const DepthMap& sampled_sigma) {
   const ImagedMask mask = MakeImagedMask(panorama_size.x, panorama_size.y, depth, whole_turn);
   ReliefTexture relief;
   if (depth.empty()) {
@@ -140,10 +222,8 @@ ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap&
       relief.texels.insert(relief.texels.end(), {0, 0, 0, share});
     return relief;
   }
-  // One texel per pixel when that is not too many.
-  const double shrink = std::max(1.0, double(std::max(depth.width, depth.height)) / kReliefSide);
-  relief.width = std::max(1, static_cast<int>(std::lround(depth.width / shrink)));
-  relief.height = std::max(1, static_cast<int>(std::lround(depth.height / shrink)));
+  relief.width = drawn.width;
+  relief.height = drawn.height;
   relief.texels.resize(4 * static_cast<std::size_t>(relief.width) *
                        static_cast<std::size_t>(relief.height));
   const auto texel = [&](int x, int y) {
@@ -151,20 +231,7 @@ ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap&
                 .texels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(relief.width) +
                              static_cast<std::size_t>(x))];
   };
-  const auto shrunk = [&](const DepthMap& map) {
-    if (map.empty()) return DepthMap();
-    DepthMap small(relief.width, relief.height);
-    for (int y = 0; y < relief.height; ++y) {
-      const int v =
-          std::min(static_cast<int>((y + 0.5) * map.height / relief.height), map.height - 1);
-      for (int x = 0; x < relief.width; ++x)
-        small.at(x, y) = map.at(
-            std::min(static_cast<int>((x + 0.5) * map.width / relief.width), map.width - 1), v);
-    }
-    return small;
-  };
-  DepthMap drawn = shrunk(depth);
-  SmoothOutlines(drawn, whole_turn, shrunk(sigma));
+  SmoothOutlines(drawn, whole_turn, sampled_sigma);
   FillUnknown(drawn);
   for (int y = 0; y < relief.height; ++y)
     for (int x = 0; x < relief.width; ++x) {

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/scene/image.h"
+#include "simulation/scene/pixel_bounds.h"
 #include "simulation/scene/projection.h"
 
 namespace arthro::app {
@@ -29,10 +30,24 @@ struct ReliefTexture {
   // its edge, on the inner side.
   std::vector<float> texels;
 };
+// Values of a depth map at the texels of its relief; those of a large map are some of its pixels.
+DepthMap SampledRelief(const DepthMap& map);
+// Replaces the samples of a part of the map, which lies at `box` in the whole of that size.
+void PutSampled(const DepthMap& part, const PixelBounds& box, const glm::ivec2& whole,
+                DepthMap& sampled);
+
+// Adds the difference of two maps within `changed`, low-passed over some 4 px, to samples that have
+// no noise. Unknown depths stay or become unknown, and new ones are taken as they are.
+void ShiftSampled(const DepthMap& before, const DepthMap& after, const PixelBounds& changed,
+                  DepthMap& sampled);
+
 // An empty `depth` gives the bare sphere, all of it imaged. `sigma`: its standard error, of its
 // size, for the outlines; empty: not known.
 ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap& depth,
                                 bool whole_turn, const DepthMap& sigma = {});
+// The same, of samples. `depth`: the whole map, of which only the unknown part counts.
+ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap& depth,
+                                DepthMap sampled, bool whole_turn, const DepthMap& sampled_sigma);
 
 // Maximum of the relief over each block of block x block texels and its eight neighbours, m: a ray
 // above it passes the block without a texture read.

@@ -32,24 +32,68 @@ double SmoothingPx(double error, const Backdrop& backdrop) {
   return smoothing * px_per_rad / backdrop.radius;
 }
 
+// `made.sampled` as textures. `after`: the maps; of the depth only the unknown part counts.
+void MakeTextures(const glm::ivec2& panorama_size, const ReliefMaps& after,
+                  const Backdrop& backdrop, DrawnRelief& made) {
+  const auto& [depth, sigma] = after;
+  made.is_noisy = !sigma.empty() && !depth.empty();
+  const bool wraps = IsWholeTurn(backdrop.projection, panorama_size.x);
+  const double error = made.is_noisy ? SharesOf(depth, sigma, {}).median_sigma.value_or(0.0) : 0.0;
+  made.texture = MakeReliefTexture(panorama_size, depth, made.sampled, wraps, SampledRelief(sigma));
+  made.ceiling = MakeReliefCeiling(made.texture, wraps);
+  if (backdrop.relight > 0 || made.is_noisy)
+    made.slopes = MakeBroadSlopes(
+        made.texture, wraps,
+        kLampBlur * SmoothingPx(error, backdrop) * made.texture.width / std::max(depth.width, 1));
+  made.least_side = made.is_noisy ? kSideOfError * error : 0.0;
+}
+
 }  // namespace
 
 DrawnRelief MakeDrawnRelief(const glm::ivec2& panorama_size, const DepthMap& depth,
-                            const DepthMap& sigma, const Backdrop& backdrop, ReliefNoise noise) {
-  DrawnRelief drawn;
-  drawn.is_noisy = !sigma.empty() && !depth.empty();
-  const bool wraps = IsWholeTurn(backdrop.projection, panorama_size.x);
-  const bool removes = drawn.is_noisy && noise == ReliefNoise::kRemoved;
-  const DepthMap quiet = removes ? simulation::WithoutNoise(depth, sigma, backdrop) : DepthMap();
-  const double error = drawn.is_noisy ? SharesOf(depth, sigma, {}).median_sigma.value_or(0.0) : 0.0;
-  drawn.texture = MakeReliefTexture(panorama_size, removes ? quiet : depth, wraps, sigma);
-  drawn.ceiling = MakeReliefCeiling(drawn.texture, wraps);
-  if (backdrop.relight > 0 || drawn.is_noisy)
-    drawn.slopes = MakeBroadSlopes(
-        drawn.texture, wraps,
-        kLampBlur * SmoothingPx(error, backdrop) * drawn.texture.width / std::max(depth.width, 1));
-  if (drawn.is_noisy) drawn.least_side = kSideOfError * error;
-  return drawn;
+                            const DepthMap& sigma, const Backdrop& backdrop, ReliefNoise noise,
+                            const std::atomic<bool>* stop) {
+  DrawnRelief made;
+  const bool removes = !sigma.empty() && !depth.empty() && noise == ReliefNoise::kRemoved;
+  made.sampled =
+      SampledRelief(removes ? simulation::WithoutNoise(depth, sigma, backdrop, stop) : depth);
+  MakeTextures(panorama_size, {depth, sigma}, backdrop, made);
+  return made;
+}
+
+std::optional<PixelBounds> SmallChange(const ReliefMaps& before, const ReliefMaps& after) {
+  constexpr double kLargePart = 0.25;  // share of the map
+  const auto differ = [](const DepthMap& a, const DepthMap& b) {
+    return a.width != b.width || a.height != b.height;
+  };
+  if (differ(before.depth, after.depth) || differ(before.sigma, after.sigma)) return std::nullopt;
+  const PixelBounds changed =
+      Joined(DifferenceOf(before.depth, after.depth), DifferenceOf(before.sigma, after.sigma));
+  const double area = static_cast<double>(changed.width()) * changed.height();
+  if (area > kLargePart * after.depth.width * after.depth.height) return std::nullopt;
+  return changed;
+}
+
+DrawnRelief WithChange(const DrawnRelief& relief, const glm::ivec2& panorama_size,
+                       const ReliefMaps& after, const Backdrop& backdrop,
+                       const PixelBounds& changed, const std::atomic<bool>* stop) {
+  DrawnRelief made;
+  made.sampled = relief.sampled;
+  const simulation::QuietPart quiet =
+      simulation::WithoutNoiseAround(after.depth, after.sigma, backdrop, changed, stop);
+  PutSampled(quiet.relief, quiet.box, {after.depth.width, after.depth.height}, made.sampled);
+  MakeTextures(panorama_size, after, backdrop, made);
+  return made;
+}
+
+DrawnRelief WithShift(const DrawnRelief& relief, const glm::ivec2& panorama_size,
+                      const ReliefMaps& before, const ReliefMaps& after, const Backdrop& backdrop,
+                      const PixelBounds& changed) {
+  DrawnRelief made;
+  made.sampled = relief.sampled;
+  ShiftSampled(before.depth, after.depth, changed, made.sampled);
+  MakeTextures(panorama_size, after, backdrop, made);
+  return made;
 }
 
 }  // namespace arthro::app

@@ -26,6 +26,10 @@ float LeastStep(const DepthMap& sigma, std::size_t a, std::size_t b) {
   return error > kLeastStep ? error : kLeastStep;  // also where the error is not known (NaN)
 }
 
+// False for almost all texels, whose standard errors need not be looked at. A step to an unknown
+// texel (NaN) is none.
+bool CanBeStep(float a, float b) { return std::abs(b - a) >= kLeastStep; }
+
 // Returns how much higher `b` is than `a` when that is an outline, else 0: before and after it the
 // relief changes by less than half as much. Unknown texels are no outline.
 float StepOf(float before, float a, float b, float after, float least) {
@@ -67,6 +71,7 @@ Steps StepsAcrossRows(const DepthMap& map, bool whole_turn, const DepthMap& sigm
     const float *above = row - map.width, *below = row + map.width, *next = below + map.width;
     float* to = &steps.values[steps.Texel(0, y)];
     for (int x = 0; x < map.width; ++x) {
+      if (!CanBeStep(row[x], below[x])) continue;
       to[x] = StepOf(above[x], row[x], below[x], next[x],
                      LeastStep(sigma, steps.Texel(x, y), steps.Texel(x, y + 1)));
       if (to[x] != 0) steps.found[static_cast<std::size_t>(y)].push_back(x);
@@ -91,7 +96,8 @@ Steps StepsAcrossColumns(const DepthMap& map, bool whole_turn, const DepthMap& s
       return LeastStep(sigma, steps.Texel(y, x), steps.Texel(y, (x + 1) % width));
     };
     for (int x = 1; x + 2 < width; ++x)
-      take(x, StepOf(row[x - 1], row[x], row[x + 1], row[x + 2], least(x)));
+      if (CanBeStep(row[x], row[x + 1]))
+        take(x, StepOf(row[x - 1], row[x], row[x + 1], row[x + 2], least(x)));
     if (!whole_turn || width < 4) continue;
     for (const int x : {0, width - 2, width - 1})
       take(x, StepOf(row[(x + width - 1) % width], row[x], row[(x + 1) % width],

@@ -13,10 +13,6 @@
 
 namespace arthro::authoring {
 
-using arthro::Grown;
-using arthro::Joined;
-using arthro::PixelBounds;
-
 struct StrokeTile {
   static constexpr int kSide = 64;  // px
   int x = 0, y = 0, width = 0, height = 0;

@@ -332,8 +332,9 @@ TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& si
   return SmoothPart(depth, passes, sigma, backdrop, limits, WholeOf(depth));
 }
 
-DepthMap WithoutNoise(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop) {
-  return WithoutNoiseIn(depth, sigma, backdrop, WholeOf(depth));
+DepthMap WithoutNoise(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop,
+                      const std::atomic<bool>* stop) {
+  return WithoutNoiseIn(depth, sigma, backdrop, WholeOf(depth), nullptr, stop);
 }
 
 QuietPart WithoutNoiseAround(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop,

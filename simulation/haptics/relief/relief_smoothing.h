@@ -35,8 +35,9 @@ TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& si
 
 // The depth map with the noise that `sigma` explains removed in this way, for the picture; medians
 // of 3 x 3 pixels take the place of the smoothing of single pixels, and unknown depths stay
-// unknown.
-DepthMap WithoutNoise(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop);
+// unknown. Throws Error(kCancelled) once `stop` is set; null: it never is.
+DepthMap WithoutNoise(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop,
+                      const std::atomic<bool>* stop = nullptr);
 
 // Part of such a map.
 struct QuietPart {
@@ -48,8 +49,7 @@ struct QuietPart {
 // The part of WithoutNoise(depth, sigma, backdrop) that a change of depth or sigma within `changed`
 // alters: the smoothing reaches so far. The same bytes where no step lies near; a step is judged by
 // the part of its line within the pixels that were read. The whole map where `sigma` lacks a value,
-// which counts as the largest of all. Throws Error(kCancelled) once `stop` is set; null: it never
-// is.
+// which counts as the largest of all.
 QuietPart WithoutNoiseAround(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop,
                              const PixelBounds& changed, const std::atomic<bool>* stop = nullptr);
 

@@ -1,6 +1,28 @@
 #include "simulation/scene/files/scene_files.h"
 
+#include <nlohmann/json.hpp>
+
+#include "simulation/core/error.h"
+#include "simulation/core/json_text.h"
+
 namespace arthro {
+
+std::map<std::string, std::filesystem::path> UnmendedFilesOf(const Scene& scene) {
+  std::map<std::string, std::filesystem::path> files;
+  const auto key = scene.extensions.find(kUnmendedDepthKey);
+  if (key == scene.extensions.end()) return files;
+  nlohmann::json json;
+  try {
+    json = ParseJson(key->second, Code::kBadScene);
+  } catch (const Error&) {
+    return files;
+  }
+  for (const char* word : {"depth", "sigma", "origin"})
+    if (const auto name = json.is_object() ? json.find(word) : json.end();
+        name != json.end() && name->is_string())
+      files[word] = name->get<std::string>();
+  return files;
+}
 
 std::vector<std::filesystem::path> FilesNamedBy(const Scene& scene) {
   const Backdrop& backdrop = scene.backdrop;
@@ -16,6 +38,7 @@ std::vector<std::filesystem::path> FilesNamedBy(const Scene& scene) {
     files.push_back(exercise.ghost);
     for (const ExerciseStep& step : exercise.steps) files.push_back(BaseOf(step).picture);
   }
+  for (const auto& [word, file] : UnmendedFilesOf(scene)) files.push_back(file);
   std::erase_if(files, [](const std::filesystem::path& file) { return file.empty(); });
   return files;
 }

@@ -3,14 +3,23 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "simulation/scene/scene.h"
 
 namespace arthro {
 
-// Panorama, depth map with its standard error and origins, lens, surfaces, meshes, and pictures and
-// recordings of exercises, as the scene writes them; empty ones left out.
+// Key of a scene that names an imported depth map as it was before strokes mended it: an object of
+// the names of its files, "depth", "sigma" and "origin".
+inline constexpr const char* kUnmendedDepthKey = "x-depth-unmended";
+// Those files by these words; none where the key is missing or holds something else.
+std::map<std::string, std::filesystem::path> UnmendedFilesOf(const Scene& scene);
+
+// Panorama, depth map with its standard error and origins, also as it was before strokes, lens,
+// surfaces, meshes, and pictures and recordings of exercises, as the scene writes them; empty ones
+// left out.
 std::vector<std::filesystem::path> FilesNamedBy(const Scene& scene);
 
 }  // namespace arthro

@@ -12,6 +12,7 @@
 #include "simulation/core/leftovers.h"
 #include "simulation/scene/backdrop/steep_noise.h"
 #include "simulation/scene/files/archive_io.h"
+#include "simulation/scene/files/scene_files.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/json/lens_io.h"
 #include "simulation/scene/json/scene_json.h"
@@ -175,6 +176,10 @@ LoadedScene LoadFolder(const fs::path& scene, std::shared_ptr<const TemporaryFol
   const auto only_named = [&](const std::string& key, const fs::path& name) {
     named(key, name, [](const fs::path&) -> Part { return nullptr; });
   };
+  for (const auto& [word, name] : UnmendedFilesOf(loaded.scene)) {
+    attempt([&, &file_name = name] { RequireInFolder(folder, file_name); });
+    only_named(std::string(kUnmendedDepthKey) + "." + word, name);
+  }
   for (std::size_t i = 0; i < loaded.scene.exercises.size(); ++i) {
     const Exercise& exercise = loaded.scene.exercises[i];
     only_named(fmt::format("exercises[{}].picture", i), exercise.picture);

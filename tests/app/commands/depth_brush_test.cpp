@@ -13,8 +13,10 @@
 #include "app/editor/every_step.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/steps/depth/depth_overlay.h"
 #include "app/steps/depth/depth_step.h"
 #include "authoring/project/document_io.h"
+#include "simulation/core/atomic_file.h"
 #include "tests/support/measured_scene.h"
 #include "tests/support/temp_folder.h"
 
@@ -156,10 +158,36 @@ TEST_F(DepthBrushMode, ShowsTheStrokeWhileTheButtonIsDown) {
   KeepDepthBoardFresh(state);
   EXPECT_TRUE(state.steps.depth->board.patch.picture);
   const auto& brush = state.steps.depth->board.brush;
-  EXPECT_NEAR(brush.live->at(60, 40) - brush.before->at(60, 40), 1e-3, 1e-8);
+  EXPECT_NEAR(brush.growing->depth().relief.at(60, 40) - brush.growing->before().relief.at(60, 40),
+              1e-3, 1e-8);
   EndStroke(state);
   KeepDepthBoardFresh(state);
   EXPECT_FALSE(state.steps.depth->board.patch.picture);
+}
+
+// A stroke over the width of the map: each piece computes and draws its surround, not the stroke.
+TEST_F(DepthBrushMode, APieceOfAStrokeDrawsItsSurroundOnly) {
+  state.steps.depth->board.is_shown = true;
+  state.steps.depth->board.layer = MapLayer::kShape;
+  SetBrushRadius(state, 3);
+  const auto& board = state.steps.depth->board;
+  for (int x = 8; x < test::kMeasuredWidth - 8; x += 4) {
+    PaintDepth(state, {x, 30 + 0.1 * x});
+    KeepDepthBoardFresh(state);
+    const PixelBounds& box = board.patch.box;
+    // The piece with its radius and the rim of slopes on either side, and a strip of a few columns
+    // and rows by which the box grew.
+    const int side = 4 + 2 * (3 + kShapeReach + 1) + 4;
+    EXPECT_LE(board.patch.drawn, side * side + 8 * (box.width() + box.height())) << x;
+    ASSERT_TRUE(board.patch.picture);
+    EXPECT_EQ(board.patch.picture->width, box.width());
+  }
+  // The patch that was drawn piece by piece is that of the whole stroke.
+  const ColourImage pieces = *board.patch.picture;
+  const CoarseMap coarse{board.brush.growing->depth().relief, *board.brush.coarse_picture,
+                         board.brush.stride};
+  EXPECT_EQ(pieces.rgb,
+            DrawCoarse(state.document(), MapLayer::kShape, coarse, board.patch.box).rgb);
 }
 
 TEST_F(DepthBrushMode, StrokesAreKeptInTheSavedScene) {
@@ -198,12 +226,75 @@ TEST_F(DepthBrushOnMeasuredMap, KeepsTheMapAnImportedOne) {
   Stroke(StrokeKind::kRaise, 6, {100, 60}, {104, 60});
   EXPECT_TRUE(state.document().is_depth_imported);
   EXPECT_EQ(state.document().depth_origin->at(102, 60), ReliefOrigin::kInterpolated);
-  EXPECT_FALSE(CanRemoveStrokes(state)) << "an imported map holds its strokes for good";
   authoring::DepthOptions options = state.document().depth_options;
   options.gamma = 1.5;
   const auto mended = state.document().depth;
   SetDepthOptions(state, options, "Gamma");
   EXPECT_EQ(state.document().depth, mended) << "a slider never replaces an imported map";
+}
+
+TEST_F(DepthBrushOnMeasuredMap, StrokesAreDataAndAreRemoved) {
+  const authoring::Document before = state.document();
+  Stroke(StrokeKind::kRaise, 6, {100, 60}, {104, 60});
+  Stroke(StrokeKind::kMask, 5, {40, 40}, {44, 44});
+  Stroke(StrokeKind::kUnknown, 4, {20, 20}, {24, 20});
+  const authoring::Document mended = state.document();
+  EXPECT_EQ(StrokeCount(state), 3);
+  EXPECT_EQ(mended.unmended.depth, before.depth);
+  // The strokes and the map before them give the map.
+  const auto& backdrop = before.scene.backdrop;
+  authoring::MendedDepth replayed{*mended.unmended.depth, *mended.unmended.sigma,
+                                  *mended.unmended.origin};
+  for (const authoring::DepthStroke& stroke : *mended.depth_strokes)
+    authoring::ApplyStroke(stroke, {*before.panorama, backdrop.projection, backdrop.radius},
+                           replayed);
+  EXPECT_TRUE(SameBytes(replayed.relief, *mended.depth));
+  EXPECT_TRUE(SameBytes(replayed.sigma, *mended.depth_sigma));
+  app::Run(state, "remove-strokes");
+  EXPECT_EQ(state.document().depth, before.depth);
+  EXPECT_EQ(state.document().depth_sigma, before.depth_sigma);
+  EXPECT_EQ(state.document().depth_origin, before.depth_origin);
+  EXPECT_EQ(StrokeCount(state), 0);
+  app::Run(state, "undo");
+  EXPECT_EQ(StrokeCount(state), 3);
+  EXPECT_EQ(state.document().depth, mended.depth);
+}
+
+TEST_F(DepthBrushOnMeasuredMap, StrokesAreDataInTheSavedSceneAndItsArchive) {
+  const test::TempFolder temp;
+  const DepthMap before = *state.document().depth;
+  authoring::Document saved = authoring::SaveDocument(state.document(), temp / "scene");
+  state.history.Amend(saved);
+  Stroke(StrokeKind::kRaise, 6, {60, 40}, {66, 40});
+  saved = authoring::SaveDocument(state.document(), temp / "scene");
+  EXPECT_EQ(saved.unmended.depth_file, "depth.tiff") << "the file of the map before is kept";
+  saved = authoring::SaveDocument(saved, temp / "scene.arthro");
+  std::filesystem::create_directory(temp / "bare");
+  for (const char* place : {"scene", "scene.arthro"}) {
+    authoring::Document opened = authoring::OpenDocument(temp / place);
+    ASSERT_TRUE(opened.is_depth_imported) << place;
+    ASSERT_TRUE(opened.depth_strokes) << place;
+    ASSERT_TRUE(opened.unmended.depth) << place;
+    EXPECT_TRUE(SameBytes(*opened.unmended.depth, before)) << place;
+    EXPECT_TRUE(SameBytes(*opened.depth, *state.document().depth)) << place;
+    EditorState next = MakeEditorState(std::move(opened));
+    RemoveStrokes(next);
+    EXPECT_TRUE(SameBytes(*next.document().depth, before)) << place;
+    // Without strokes the copy holds one map.
+    authoring::SaveDocument(next.document(), temp / "bare" / place);
+  }
+  EXPECT_FALSE(std::filesystem::exists(temp / "bare" / "scene" / "depth-2.tiff"));
+}
+
+TEST_F(DepthBrushOnMeasuredMap, AMapWhoseStrokesCannotBeReadHoldsThem) {
+  const test::TempFolder temp;
+  Stroke(StrokeKind::kRaise, 6, {60, 40}, {66, 40});
+  const authoring::Document saved = authoring::SaveDocument(state.document(), temp / "scene");
+  WriteAtomically(temp / "scene" / saved.unmended.depth_file, "no depth map");
+  const authoring::Document opened = authoring::OpenDocument(temp / "scene");
+  EXPECT_TRUE(SameBytes(*opened.depth, *state.document().depth));
+  EXPECT_FALSE(opened.depth_strokes);
+  EXPECT_FALSE(opened.unmended.depth);
 }
 
 TEST_F(DepthBrushOnMeasuredMap, TouchPreviewGivesTheForceOfASession) {

@@ -170,5 +170,17 @@ TEST(WordsForBytes, AreShortAndRounded) {
   EXPECT_EQ(WordsForBytes(999'960), "1.0 MB");
 }
 
+TEST_F(FileBrowser, OffersHomeRecentFoldersAndDrivesOnceEach) {
+  for (const char* folder :
+       {"home/Videos", "scenes/knee", "root/media/user/STICK", "root/mnt/disk"})
+    fs::create_directories(temp / folder);
+  std::vector<std::string> words;
+  for (const BrowsePlace& place :
+       BrowsePlaces(temp / "home", {temp / "scenes/knee", temp / "scenes/other"}, temp / "root"))
+    words.push_back(place.words);
+  EXPECT_EQ(words,
+            (std::vector<std::string>{"Home", "Videos", "scenes", "STICK", "disk", "Computer"}));
+}
+
 }  // namespace
 }  // namespace arthro::app

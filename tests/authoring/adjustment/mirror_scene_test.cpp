@@ -60,6 +60,7 @@ Document SidedScene(const test::TempFolder& folder) {
   AddSolid(folder, document);
   document.depth_strokes =
       Share(DepthStrokes{{.radius = 0.03, .points = {{0.25, 0.125}, {0.75, 0.5}}}});
+  document.unmended.depth = document.depth;  // an imported map
   return document;
 }
 

@@ -141,6 +141,40 @@ TEST_F(DepthJob, AnImportedMapTakesThePlaceOfTheEstimate) {
   EXPECT_NE(colours.err.find("p.png"), std::string::npos) << colours.err;
 }
 
+TEST_F(DepthJob, StrokesMendAnImportedMap) {
+  DepthMap own(96, 64, 0.002f);
+  own.at(48, 32) = 0.012f;  // a peak, such as a glint gives
+  WriteDepthMap(folder_ / "own.tiff", own);
+  const std::string strokes = (folder_ / "strokes.json").string();
+  WriteAtomically(strokes, R"({"schema": "arthroscene.depth-strokes/1", "strokes": [
+    {"kind": "mask", "radius": 0.05, "points": [[0.50520833, 0.33854167]]},
+    {"kind": "unknown", "radius": 0.05, "hardness": 1, "points": [[0.1, 0.1]]}]})");
+  const auto result = Run("--import " + (folder_ / "own.tiff").string() +
+                          " --import-meaning relief --import-unit 1 --strokes " + strokes);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("2 strokes"), std::string::npos) << result.out;
+  const DepthMap depth = ReadDepthMap(folder_ / "d.tiff");
+  // The membrane over a rim of one height is not quite level: ranges are smooth, not heights.
+  EXPECT_NEAR(depth.at(48, 32), 0.002, 1e-5);
+  EXPECT_TRUE(std::isnan(depth.at(9, 9)));
+  EXPECT_NEAR(depth.at(80, 50), 0.002, 1e-8);
+}
+
+TEST_F(DepthJob, ASmoothingStrokeLowersTheNoiseThatIsStated) {
+  ASSERT_EQ(Run("--noise " + (folder_ / "plain-noise.tiff").string(), "plain.tiff").exit_code, 0);
+  const std::string strokes = (folder_ / "strokes.json").string();
+  WriteAtomically(strokes, R"({"schema": "arthroscene.depth-strokes/1", "strokes": [
+    {"kind": "smooth", "radius": 0.05, "hardness": 1, "strength": 0.5,
+     "points": [[0.50520833, 0.33854167]]}]})");
+  const auto result = Run("--noise " + (folder_ / "noise.tiff").string() + " --strokes " + strokes);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const DepthMap plain = ReadDepthSigma(folder_ / "plain-noise.tiff"),
+                 mended = ReadDepthSigma(folder_ / "noise.tiff");
+  EXPECT_NEAR(mended.at(48, 32), 0.5f * plain.at(48, 32), 1e-9);
+  ASSERT_TRUE(std::isfinite(plain.at(60, 32)));
+  EXPECT_EQ(mended.at(60, 32), plain.at(60, 32)) << "beside the stroke";
+}
+
 TEST_F(DepthJob, AStrokeWithoutPointsIsRefused) {
   const std::string strokes = (folder_ / "strokes.json").string();
   WriteAtomically(strokes, R"({"schema": "arthroscene.depth-strokes/1", "strokes": [

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "authoring/panorama/make_panorama.h"
+#include "authoring/panorama/report_io.h"
 #include "authoring/panorama/ties/clicked_tie.h"
 #include "simulation/core/error.h"
 #include "tests/authoring/panorama/tiny_clip.h"
@@ -117,6 +118,47 @@ TEST_F(TiedClip, APairWithThePanoramaIsThatWithItsFrame) {
   }
   const PanoramaResult by_panorama = session_.Run(request_, {}, {});
   EXPECT_NEAR(PairError(by_panorama.report, 4, 3), PairError(by_frame.report, 4, 3), 0.01);
+}
+
+// The report alone, as a job reads it from a file, stands for the registration.
+TEST_F(TiedClip, KnownPlacesTakeTheTiedFrameWithoutMatchingAnyPair) {
+  const PanoramaResult before = MakePanorama(request_, {});
+  request_.known =
+      std::make_shared<const PanoramaReport>(ReportFromJson(JsonFromReport(before.report)));
+  const PanoramaResult again = MakePanorama(request_, {});
+  EXPECT_EQ(again.picture.width, before.picture.width);
+  EXPECT_EQ(again.picture.height, before.picture.height);
+  EXPECT_NEAR(again.report.panorama.focal_px, before.report.panorama.focal_px, 1e-9);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(PairError(again.report, i, 0), PairError(before.report, i, 0), 1e-9);
+  EXPECT_FALSE(again.report.frames[4].is_placed);
+
+  request_.ties = {Tie(4, 3, {45, 90}), Tie(4, 3, {60, 170})};
+  const PanoramaResult after = MakePanorama(request_, {});
+  ASSERT_TRUE(after.report.frames[4].is_placed);
+  EXPECT_LE(PairError(after.report, 4, 3), after.report.tied[0].expected_error_px);
+  for (const StageCost& stage : after.report.stages) EXPECT_NE(stage.name, "pairs");
+  request_.known = nullptr;
+  const PanoramaResult whole = MakePanorama(request_, {});
+  EXPECT_NEAR(PairError(after.report, 4, 3), PairError(whole.report, 4, 3), 0.02);
+  // A frame that was tied before has its place by ties, which are given again.
+  request_.known = std::make_shared<const PanoramaReport>(after.report);
+  EXPECT_TRUE(MakePanorama(request_, {}).report.frames[4].is_placed);
+  request_.ties.clear();
+  EXPECT_FALSE(MakePanorama(request_, {}).report.frames[4].is_placed);
+}
+
+TEST_F(TiedClip, PlacesOfAnotherClipAreRefused) {
+  PanoramaReport other = MakePanorama(request_, {}).report;
+  other.frames.pop_back();
+  request_.known = std::make_shared<const PanoramaReport>(other);
+  try {
+    MakePanorama(request_, {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(error.sentence().find("the report has 4 frames and the footage 5"), std::string::npos)
+        << error.sentence();
+  }
 }
 
 TEST_F(TiedClip, TiesThatCannotBeUsedAreRefusedAndNamed) {
