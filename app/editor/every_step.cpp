@@ -17,6 +17,7 @@
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/film.h"
+#include "app/steps/practice/lens/grid_lens.h"
 #include "app/steps/practice/rig_edit.h"
 #include "app/steps/practice/tissue_poke.h"
 #include "app/steps/solids/solid_edit.h"
@@ -162,13 +163,26 @@ constexpr Command kWindowCommands[] = {
 std::span<const Command> AllCommands() {
   static const std::vector<Command> all = [] {
     std::vector<Command> commands;
-    for (const auto group :
-         {FileCommands(), StartCommands(), PanoramaCommands(), DepthCommands(), TissueCommands(),
-          LibraryCommands(), CutCommands(), PlacingCommands(), SolidCommands(),
-          std::span<const Command>(kStepCommands), PracticeCommands(), PortalsCommands(),
-          LessonCommands(), DisturbanceCommands(), RigCommands(), IncisionCommands(),
-          BudgetCommands(), std::span<const Command>(kViewCommands),
-          std::span<const Command>(kWindowCommands)})
+    for (const auto group : {FileCommands(),
+                             StartCommands(),
+                             PanoramaCommands(),
+                             DepthCommands(),
+                             TissueCommands(),
+                             LibraryCommands(),
+                             CutCommands(),
+                             PlacingCommands(),
+                             SolidCommands(),
+                             std::span<const Command>(kStepCommands),
+                             PracticeCommands(),
+                             PortalsCommands(),
+                             LessonCommands(),
+                             DisturbanceCommands(),
+                             RigCommands(),
+                             GridLensCommands(),
+                             IncisionCommands(),
+                             BudgetCommands(),
+                             std::span<const Command>(kViewCommands),
+                             std::span<const Command>(kWindowCommands)})
       commands.insert(commands.end(), group.begin(), group.end());
     return commands;
   }();
@@ -188,6 +202,7 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
   steps.portals.emplace(wake);
   steps.practice.emplace(wake);
   steps.practice->rig.emplace();
+  steps.practice->grid.emplace();
   steps.lessons.emplace();
   steps.lessons->records.emplace();
   steps.lessons->start.emplace();

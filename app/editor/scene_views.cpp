@@ -2,15 +2,18 @@
 
 #include <optional>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "app/editor/marks/brush_marks.h"
 #include "app/editor/marks/landmark_marks.h"
+#include "app/platform/script/script.h"
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_brush.h"
 #include "app/steps/depth/touch_probe.h"
 #include "app/steps/tissue/hand_placing.h"
 #include "app/steps/tissue/landmark_mode.h"
+#include "app/steps/tissue/library/tissue_library.h"
 #include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
@@ -64,6 +67,40 @@ void BrushRings(Ui& ui, const SceneViews& views, const Layout& layout, const Pic
   ForgetPointer(views.state);
 }
 
+bool IsIn(const Area& area, const ImVec2& at) {
+  return at.x >= area.x && at.x < area.x + area.width && at.y >= area.y &&
+         at.y < area.y + area.height;
+}
+
+// A model of the library that is dragged over a picture comes to lie where it is let go.
+void DropModel(Ui& ui, const SceneViews& views, const Layout& layout, const PictureInput& input) {
+  ModelShelf& shelf = *views.state.steps.tissue->shelf;
+  if (!shelf.dragged) return;
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  const bool is_in_scope = layout.shows_picture && IsIn(input.area, at);
+  const bool is_in_overview = layout.shows_overview && IsIn(layout.overview, at);
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    if (is_in_scope || is_in_overview)
+      ImGui::GetForegroundDrawList()->AddCircle(at, ui.Px(14), 0xFF4DB8F2, 32, ui.Px(2));
+    return;
+  }
+  const authoring::ModelKind kind = *shelf.dragged;
+  shelf.dragged.reset();
+  if (!is_in_scope && !is_in_overview) return;
+  std::optional<authoring::Sight> sight;
+  if (is_in_scope)
+    sight = SightOf(views.pictures, input, {at.x - input.area.x - 0.5, at.y - input.area.y - 0.5});
+  else
+    sight = views.pictures.OverviewSight({at.x - layout.overview.x, at.y - layout.overview.y});
+  if (views.state.record.is_on) {
+    const auto& entry = authoring::ModelEntries()[static_cast<std::size_t>(kind)];
+    views.state.record.pending.push_back(fmt::format("drag {} {:g} {:g}", ScriptWord(entry.title),
+                                                     (at.x - shelf.dragged_from.x) / ui.scale,
+                                                     (at.y - shelf.dragged_from.y) / ui.scale));
+  }
+  DropLibraryModel(views.state, kind, sight);
+}
+
 bool ShowsPanorama(const SceneViews& views) {
   return views.panorama_clicks.is_shown && PlacesLandmarks(views.state);
 }
@@ -113,6 +150,7 @@ bool ShowSceneViews(Ui& ui, const Layout& layout, const SceneViews& views) {
   Landmarks(ui, views, layout, input);
   if (layout.shows_picture) PanoramaClicksButton(ui, state, views.panorama_clicks, layout.picture);
   BrushRings(ui, views, layout, input);
+  if (!ShowsPanorama(views)) DropModel(ui, views, layout, input);
   ViewSplitter(ui, state, layout);
   return is_focused;
 }

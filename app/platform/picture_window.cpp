@@ -78,6 +78,11 @@ struct PictureWindowCallbacks {
   static void Focus(GLFWwindow* window, int focused) {
     if (focused && Of(window).is_full_) glfwFocusWindow(Of(window).beside_);
   }
+  // A window that was clicked has the keys; those that close it must not go nowhere.
+  static void Key(GLFWwindow* window, int key, int, int action, int) {
+    if (action == GLFW_PRESS && (key == GLFW_KEY_ESCAPE || key == GLFW_KEY_F12))
+      glfwSetWindowShouldClose(window, GLFW_TRUE);
+  }
 };
 
 PictureWindow::PictureWindow(Window& beside, const std::string& title, int monitor, bool is_visible)
@@ -122,6 +127,7 @@ PictureWindow::PictureWindow(Window& beside, const std::string& title, int monit
   glfwSetWindowUserPointer(window_, this);
   glfwSetWindowRefreshCallback(window_, PictureWindowCallbacks::Refresh);
   glfwSetWindowFocusCallback(window_, PictureWindowCallbacks::Focus);
+  glfwSetKeyCallback(window_, PictureWindowCallbacks::Key);
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(0);
   Gl().gen_framebuffers(1, &framebuffer_);

@@ -5,6 +5,7 @@
 
 #include "app/state/footage/footage_optics.h"
 #include "app/state/footage/footage_source.h"
+#include "authoring/alignment/placing_notes.h"
 #include "authoring/project/document_io.h"
 #include "authoring/project/free_tissue_name.h"
 
@@ -143,11 +144,12 @@ void AddTissue(EditorState& state, Tissue tissue, std::shared_ptr<const SurfaceM
 void RemoveTissue(EditorState& state, int tissue) {
   if (!HasTissue(state, tissue)) return;
   const auto index = static_cast<std::ptrdiff_t>(tissue);
-  Edit(state, "Remove " + state.document().scene.tissues[static_cast<std::size_t>(tissue)].name, "",
-       [&](auto& next) {
-         next.scene.tissues.erase(next.scene.tissues.begin() + index);
-         next.surfaces.erase(next.surfaces.begin() + index);
-       });
+  const std::string name = state.document().scene.tissues[static_cast<std::size_t>(tissue)].name;
+  Edit(state, "Remove " + name, "", [&](auto& next) {
+    authoring::RenameInNotes(next.scene, name, "");
+    next.scene.tissues.erase(next.scene.tissues.begin() + index);
+    next.surfaces.erase(next.surfaces.begin() + index);
+  });
   if (!HasTissue(state, state.tissue))
     state.tissue = static_cast<int>(state.document().scene.tissues.size()) - 1;
 }
@@ -165,7 +167,11 @@ void SetTissue(EditorState& state, int tissue, const Tissue& changed, const std:
   const Tissue& old = state.document().scene.tissues[static_cast<std::size_t>(tissue)];
   if (changed == old) return;
   Edit(state, what + " " + old.name, Key("tissue " + std::to_string(tissue), what),
-       [&](auto& next) { next.scene.tissues[static_cast<std::size_t>(tissue)] = changed; });
+       [&](auto& next) {
+         Tissue& own = next.scene.tissues[static_cast<std::size_t>(tissue)];
+         if (own.name != changed.name) authoring::RenameInNotes(next.scene, own.name, changed.name);
+         own = changed;
+       });
 }
 
 void EndDrag(EditorState& state) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "authoring/alignment/place_by_hand.h"
+#include "authoring/alignment/placing_notes.h"
 #include "simulation/scene/exercise/mirrored_exercise.h"
 #include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/scene/solids/solid_io.h"
@@ -95,6 +96,7 @@ void MirrorScene(Document& document, const NewFile& new_file) {
   Scene& scene = document.scene;
   for (std::size_t i = 0; i < scene.tissues.size(); ++i) {
     Tissue& tissue = scene.tissues[i];
+    MirrorInNotes(scene, tissue.name, 0);
     MirrorTissueMesh(document, tissue, new_file);
     tissue = Mirrored(tissue, 0);
     glm::dquat& q = tissue.pose.quaternion;
@@ -104,6 +106,7 @@ void MirrorScene(Document& document, const NewFile& new_file) {
       document.surfaces[i] = Share(Mirrored(*document.surfaces[i], 0));
     if (IsSolidFile(tissue.surface)) MirrorFunction(document, i, new_file);
   }
+  MoveNotes(scene, [](const glm::dvec3& x) { return glm::dvec3(Negated(x.x), x.y, x.z); });
   const int width = OrEmpty(document.panorama).width;
   document.panorama = MirrorRows(document.panorama);
   document.depth = MirrorRows(document.depth);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "authoring/alignment/placing_notes.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 
@@ -74,6 +75,7 @@ double OrientBackdrop(Document& document, const Orientation& orientation) {
     tissue.pose.position = about_ahead * tissue.pose.position;
     tissue.pose.quaternion = glm::normalize(about_ahead * tissue.pose.quaternion);
   }
+  MoveNotes(scene, [&](const glm::dvec3& x) { return about_ahead * x; });
   return turn;
 }
 

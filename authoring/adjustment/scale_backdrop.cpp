@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "authoring/alignment/placing_notes.h"
 #include "authoring/relief/editing/relief_scale.h"
 #include "simulation/core/error.h"
 
@@ -44,6 +45,7 @@ double ScaleBackdrop(Document& document, const KnownLength& length) {
     ScaleStrokes(document, factor);
   }
   for (Tissue& tissue : document.scene.tissues) tissue.pose.position *= factor;
+  MoveNotes(document.scene, [&](const glm::dvec3& x) { return factor * x; });
   return factor;
 }
 

@@ -87,4 +87,8 @@ glm::dvec3 CrescentSections::Place(double angle, double radius, double height) c
          glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), height);
 }
 
+glm::dvec3 CrescentSections::InCrescent(const glm::dvec3& x_in_model) const {
+  return Inverse(model_from_crescent_) * x_in_model;
+}
+
 }  // namespace arthro::authoring

@@ -24,6 +24,8 @@ class CrescentSections {
   // Length of the outer or the inner border between two angles.
   double BorderLength(double from, double to, bool is_outer) const;
   glm::dvec3 Place(double angle, double radius, double height) const;
+  // A place of the model in the crescent's frame.
+  glm::dvec3 InCrescent(const glm::dvec3& x_in_model) const;
 
  private:
   SurfaceMesh local_;  // in the crescent's frame

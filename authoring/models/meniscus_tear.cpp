@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -108,7 +109,9 @@ std::vector<double> PositionsAlong(const Meniscus& meniscus, double from, double
   return positions;
 }
 
-std::vector<Cut> Longitudinal(const Meniscus& meniscus, const TearOptions& o) {
+// Positions and radii of the middle of a longitudinal slot.
+std::vector<std::pair<double, double>> LongitudinalPoints(const Meniscus& meniscus,
+                                                          const TearOptions& o) {
   const CrescentSection middle = SectionAt(meniscus, o.position);
   const double radius = middle.outer - o.rim_width;
   if (!(radius > middle.inner + MetresFromMm(1)))
@@ -121,7 +124,11 @@ std::vector<Cut> Longitudinal(const Meniscus& meniscus, const TearOptions& o) {
     points.emplace_back(
         position, std::max(section.outer - o.rim_width, 0.5 * (section.inner + section.outer)));
   }
-  return {Through(meniscus, points, o.width)};
+  return points;
+}
+
+std::vector<Cut> Longitudinal(const Meniscus& meniscus, const TearOptions& o) {
+  return {Through(meniscus, LongitudinalPoints(meniscus, o), o.width)};
 }
 
 // From outside of the free edge to a radius.
@@ -199,7 +206,48 @@ std::vector<Cut> Root(const Meniscus& meniscus, const TearOptions& o) {
   return {Through(meniscus, RadialPoints(section, o.position, section.outer + kBeyond), o.width)};
 }
 
+// Radius of the slot at a position between the ends of its points.
+double RadiusAt(const std::vector<std::pair<double, double>>& points, double position) {
+  std::size_t i = 1;
+  while (i + 1 < points.size() && points[i].first < position) ++i;
+  const auto& [from, from_radius] = points[i - 1];
+  const auto& [to, to_radius] = points[i];
+  return from_radius + (position - from) / (to - from) * (to_radius - from_radius);
+}
+
 }  // namespace
+
+SurfaceMesh WithDisplacedHandle(SurfaceMesh torn, const SurfaceMesh& whole,
+                                const TearOptions& options) {
+  TearOptions checked = options;
+  CheckOptions(checked);
+  if (options.kind != TearKind::kBucketHandle)
+    throw Error(Code::kBadArgument,
+                "only the handle of a bucket-handle tear is displaced; leave the displacement out");
+  const Meniscus meniscus = FindMeniscus(whole);
+  const auto points = LongitudinalPoints(meniscus, options);
+  const double begin = points.front().first, end = points.back().first;
+  const CrescentSection middle = SectionAt(meniscus, options.position);
+  constexpr double kLeft = MetresFromMm(2);  // left of the notch, beyond the free edge
+  if (options.displacement > middle.inner - kLeft)
+    Refuse(fmt::format("the notch is {:.1f} mm wide there; displace its handle less",
+                       MmFromMetres(middle.inner)));
+  const double at_middle = meniscus.AngleAt(0.5 * (begin + end));
+  // Unit, from the middle of the tear towards the axis of the crescent.
+  const glm::dvec3 inwards =
+      meniscus.sections.Place(at_middle, 0.0, 0) - meniscus.sections.Place(at_middle, 1.0, 0);
+  for (glm::dvec3& x : torn.vertices) {
+    const glm::dvec3 flat = meniscus.sections.InCrescent(x);
+    const double turn =
+        std::remainder(std::atan2(flat.y, flat.x) - at_middle, 2 * std::numbers::pi);
+    const double position = 0.5 * (begin + end) + turn / meniscus.sweep;
+    if (position <= begin || position >= end) continue;
+    if (std::hypot(flat.x, flat.y) >= RadiusAt(points, position)) continue;
+    const double rise = std::sin(std::numbers::pi * (position - begin) / (end - begin));
+    x += options.displacement * rise * rise * inwards;
+  }
+  return torn;
+}
 
 std::span<const TearEntry> TearEntries() { return kEntries; }
 

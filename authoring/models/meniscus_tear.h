@@ -26,6 +26,7 @@ struct TearOptions {
   double rim_width;  // m, from the outer rim to a longitudinal tear
   double reach;      // m, from the free edge outwards
   double width = MetresFromMm(0.6);
+  double displacement = 0;  // m, of the middle of a bucket handle, towards the notch
   template <class V>
   void Visit(V&& v) {
     v("tear_position", position, Range{0.0, 1.0}, "",
@@ -39,6 +40,9 @@ struct TearOptions {
       "Reach from the free edge outwards, of a radial, flap or horizontal tear.");
     v("tear_width", width, Range{MetresFromMm(0.3), MetresFromMm(2)}, "m",
       "Width of the open slot at rest.");
+    v("tear_displacement", displacement, Range{0, MetresFromMm(12)}, "m",
+      "How far the middle of a bucket handle lies from its place, towards the notch; 0: it lies in "
+      "its place.");
   }
 };
 
@@ -53,5 +57,12 @@ std::span<const TearEntry> TearEntries();
 // Throws Error(kBadMesh) where the surface is no crescent, and Error(kBadArgument) where the tear
 // does not fit into it.
 std::vector<Cut> TearCuts(const SurfaceMesh& surface, const TearOptions& options);
+
+// The surface of a meniscus after its bucket-handle tear, with the handle displaced: the most in
+// the middle of the tear, and not at its ends. `torn`: the surface with the slot cut into it;
+// `whole`: before. Throws Error(kBadArgument) for another kind of tear, and where the handle has no
+// room.
+SurfaceMesh WithDisplacedHandle(SurfaceMesh torn, const SurfaceMesh& whole,
+                                const TearOptions& options);
 
 }  // namespace arthro::authoring

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "authoring/alignment/placing_notes.h"
 #include "authoring/depth/strokes/depth_strokes_io.h"
 #include "authoring/project/asset_writer.h"
 #include "authoring/project/document_extensions.h"
@@ -351,7 +352,8 @@ class Saving {
   void SaveExtensions() {
     auto& extensions = after_.scene.extensions;
     // Keys of other tools stay in this scene; a copy that is handed on does not carry them.
-    if (is_copy_) extensions.clear();
+    if (is_copy_)
+      std::erase_if(extensions, [](const auto& entry) { return entry.first != kPlacingKey; });
     PutDocumentKeys(after_);
     extensions.erase(kWrittenFilesKey);
     if (!written_.empty()) extensions[kWrittenFilesKey] = JsonFromWrittenFiles(written_);

@@ -13,14 +13,11 @@
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
-#include "authoring/footage/find_circle.h"
-#include "authoring/lens/calibrate_lens.h"
 #include "authoring/lens/calibration_report.h"
-#include "authoring/lens/target/detect_target.h"
+#include "authoring/lens/grid/lens_from_pictures.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/image_io.h"
 #include "simulation/scene/json/lens_io.h"
 
 namespace arthro::app {
@@ -37,44 +34,17 @@ struct LensJob {
 void Run(const LensJob& job) {
   CheckOptions(job.detect);
   CheckOptions(job.calibrate);
-  const Progress progress = TerminalProgress();
-  const double count = static_cast<double>(job.pictures.size());
-  std::vector<ColourImage> pictures;
-  authoring::CircleFinder finder;
-  for (const std::string& file : job.pictures) {
-    progress.Step("reading", static_cast<double>(pictures.size()) / count);
-    pictures.push_back(ReadColourImage(file));
-    ColourImage& picture = pictures.back();
-    const ColourImage& first = pictures.front();
-    if (picture.width != first.width || picture.height != first.height)
-      throw Error(Code::kBadImage,
-                  fmt::format("this picture is {} x {} px and {} is {} x {}; a lens is calibrated "
-                              "from pictures of one camera at one size",
-                              picture.width, picture.height, job.pictures.front(), first.width,
-                              first.height),
-                  file);
-    finder.Add(cv::Mat(picture.height, picture.width, CV_8UC3, picture.rgb.data()));
-  }
-  const LensCircle circle = finder.Find().circle;
-  std::vector<authoring::TargetView> views;
-  for (ColourImage& picture : pictures) {
-    progress.Step("looking for the target", static_cast<double>(views.size()) / count);
-    const cv::Mat rgb(picture.height, picture.width, CV_8UC3, picture.rgb.data());
-    views.push_back(authoring::DetectTarget(rgb, circle, job.detect));
-  }
-  const auto calibration =
-      authoring::CalibrateLens(views, {pictures.front().width, pictures.front().height}, circle,
-                               MetresFromMm(job.spacing_mm), job.calibrate, progress);
+  const authoring::PicturesLens found = authoring::LensFromPictures(
+      std::vector<std::filesystem::path>(job.pictures.begin(), job.pictures.end()),
+      MetresFromMm(job.spacing_mm), job.detect, job.calibrate, TerminalProgress());
+  const authoring::LensCalibration& calibration = found.calibration;
   const std::string table = authoring::TableOf(calibration, job.pictures);
   std::fputs(table.c_str(), job.output == "-" || job.report == "-" ? stderr : stdout);
   if (!job.report.empty())
     WriteAtomically(job.report, authoring::JsonOf(calibration, job.pictures));
-  if (calibration.verdict == authoring::LensVerdict::kRefused) {
-    std::string reason = calibration.sentences.front();
-    if (job.pictures.size() == 1 && !views.front().reason.empty()) reason = views.front().reason;
-    throw Error(Code::kBadImage, "no lens was written: " + reason,
+  if (!found.refusal.empty())
+    throw Error(Code::kBadImage, "no lens was written: " + found.refusal,
                 job.pictures.size() == 1 ? job.pictures.front() : std::string());
-  }
   WriteLens(job.output, calibration.lens);
   if (calibration.verdict == authoring::LensVerdict::kDoubtful)
     for (const std::string& sentence : calibration.sentences)

@@ -17,6 +17,7 @@
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/steps/tissue/library/torn_surface.h"
 #include "authoring/models/meniscus_tear.h"
 #include "authoring/models/model_in_scene.h"
 #include "authoring/models/model_library.h"
@@ -28,9 +29,6 @@
 #include "simulation/core/temporary_folder.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/mesh/mesh_io.h"
-#include "simulation/tissue/body/body_options.h"
-#include "simulation/tissue/cut/cutters.h"
-#include "simulation/tissue/field/polygonise.h"
 
 namespace arthro::app {
 namespace {
@@ -125,12 +123,13 @@ authoring::ModelOptions OptionsOf(const Arguments& arguments) {
   return options;
 }
 
-std::vector<Cut> CutsOf(const Arguments& arguments, const LibraryModel& model) {
+// The tear that was asked for; nothing where there is none.
+std::optional<authoring::TearOptions> TearOf(const Arguments& arguments) {
   if (arguments.tear.empty()) {
     if (!arguments.tear_sizes.empty())
       throw Error(Code::kBadArgument,
                   "a size of a tear is given but no tear; name its kind with --tear");
-    return {};
+    return std::nullopt;
   }
   if (!authoring::IsMeniscus(EntryOf(arguments.kind).kind))
     throw Error(Code::kBadArgument,
@@ -142,19 +141,13 @@ std::vector<Cut> CutsOf(const Arguments& arguments, const LibraryModel& model) {
       authoring::TearOptions tear(entry.kind);
       std::map<std::string, double> given = arguments.tear_sizes;
       tear.Visit(FieldSetter{given});
-      return authoring::TearCuts(model.surface, tear);
+      if (tear.displacement > 0 && tear.kind != authoring::TearKind::kBucketHandle)
+        throw Error(Code::kBadArgument,
+                    "only the handle of a bucket-handle tear is displaced; leave out "
+                    "--tear-displacement-mm");
+      return tear;
     }
   throw Error(Code::kBadArgument, "\"" + arguments.tear + "\" is no kind of tear");
-}
-
-// Surface of the model after its tear, closed.
-SurfaceMesh TornSurface(const LibraryModel& model, const std::vector<Cut>& cuts, double* removed) {
-  simulation::SolidField field =
-      simulation::SolidField::FromSurface(model.surface, simulation::BodyOptions{}.cut_spacing);
-  const double whole = field.Volume();
-  simulation::MakeCuts(field, cuts, model.fixed);
-  *removed = whole - field.Volume();
-  return simulation::Polygonise(field);
 }
 
 void SaveInScene(const Arguments& arguments, const LibraryModel& model,
@@ -194,10 +187,22 @@ void RunJob(const Arguments& arguments) {
   const KneeSide side = arguments.side == "left" ? KneeSide::kLeft : KneeSide::kRight;
   const authoring::ModelOptions options = OptionsOf(arguments);
   const LibraryModel model = authoring::MakeModel(options, side);
-  const std::vector<Cut> cuts = CutsOf(arguments, model);
+  const std::optional<authoring::TearOptions> tear = TearOf(arguments);
+  std::vector<Cut> cuts;
+  if (tear) cuts = authoring::TearCuts(model.surface, *tear);
+  const bool is_displaced = tear && tear->displacement > 0;
   double removed = 0;
-  const SurfaceMesh torn = cuts.empty() ? SurfaceMesh{} : TornSurface(model, cuts, &removed);
-  if (!arguments.save_scene.empty()) SaveInScene(arguments, model, cuts, TerminalProgress());
+  SurfaceMesh torn;
+  if (is_displaced)
+    torn = DisplacedHandle(model.surface, *tear, model.fixed, &removed, TerminalProgress());
+  else if (tear)
+    torn = TornSurface(model.surface, cuts, model.fixed, &removed);
+  if (!arguments.save_scene.empty()) {
+    // A displaced handle is another shape; its slot is part of that.
+    LibraryModel in_scene = model;
+    if (is_displaced) in_scene.surface = torn;
+    SaveInScene(arguments, in_scene, is_displaced ? std::vector<Cut>() : cuts, TerminalProgress());
+  }
   if (!arguments.output.empty()) {
     SurfaceLabels labels;
     if (cuts.empty() && !model.zones.of_vertex.empty())

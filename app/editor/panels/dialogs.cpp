@@ -96,6 +96,13 @@ void Draw(Ui& ui, EditorState& state, UnitDialog& dialog) {
   ImGui::NewLine();
   const double length = dialog.longest_side * MetresPerUnit(dialog.unit).value_or(1.0);
   Text(ui, fmt::format("The surface will be {} long.", ShownLength(length)));
+  // From a grain of a loose body to a whole bone of the leg.
+  constexpr double kShortest = 5e-4, kLongest = 0.6;  // m
+  const bool has_size = length >= kShortest && length <= kLongest;
+  if (!has_size)
+    ColouredText(ui,
+                 "Nothing in a joint has that size; choose the unit in which the file was made.",
+                 kWarning);
   if (const int partner = PartnerOfImport(state); partner >= 0)
     Checkbox(
         ui,
@@ -105,7 +112,8 @@ void Draw(Ui& ui, EditorState& state, UnitDialog& dialog) {
         "For surfaces of one knee, whose files have the same frame. Otherwise it is laid onto the "
         "relief in the middle of the view.");
   Gap(ui);
-  const bool import = Button(ui, "Import", true, {ui.Px(120), 0}) || EnterPressed();
+  const bool import =
+      Button(ui, "Import", has_size, {ui.Px(120), 0}) || (has_size && EnterPressed());
   ImGui::SameLine();
   const bool cancel = Button(ui, "Cancel", true, {ui.Px(120), 0}) || EscapePressed();
   if (!import && !cancel) return;

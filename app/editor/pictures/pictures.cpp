@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -12,6 +13,7 @@
 #include "app/steps/lessons/exercise_edit.h"
 #include "app/steps/lessons/lessons_step.h"
 #include "app/steps/practice/practice_step.h"
+#include "app/steps/solids/solid_edit.h"
 #include "app/steps/tissue/cut/tissue_cut.h"
 #include "app/steps/tissue/fault_board.h"
 #include "app/steps/tissue/import_frames.h"
@@ -34,13 +36,15 @@ bool IsTissueEdited(const EditorState& state) {
 
 // A click puts a ball, a cut or a region onto the tissue.
 bool HasBrush(const EditorState& state) {
-  return IsTissueEdited(state) && (state.steps.tissue->brush.has_value() ||
+  return IsTissueEdited(state) && (state.steps.tissue->brush.has_value() || PicksPatch(state) ||
                                    state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone);
 }
 
 void UseBrush(EditorState& state, const std::optional<Overview::TissuePlace>& place) {
   if (!place)
     state.message = "There is no tissue at that place. Click on the tissue; Esc ends this.";
+  else if (PicksPatch(state))
+    TakePatch(state, place->tissue, place->x_in_tissue);
   else if (state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone)
     UseCutBrush(state, place->tissue, place->x_in_tissue);
   else
@@ -326,6 +330,8 @@ bool Pictures::DrawOverview(EditorState& state, int width, int height) {
   const bool is_clicked = HasBrush(state) || PlacesLandmarks(state) || LaysOnRelief(state);
   const int chosen = IsTissueEdited(state) && !is_clicked ? state.tissue : -1;
   if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
+  const PartInPortal part = chosen >= 0 ? ChosenPart(state) : PartInPortal();
+  overview_.ShowPart(part.surface, part.pose);
   ShowPlaces(state);
   ShowFaults(state);
   ShowDistances(state);
@@ -354,6 +360,8 @@ void Pictures::ShowPlaces(const EditorState& state) {
     return overview_.ShowBalls(state.tissue,
                                BallsOf(tissues[static_cast<std::size_t>(state.tissue)], *kind),
                                state.steps.tissue->ball);
+  if (const auto patch = PatchOf(state); has_tissue && patch)
+    return overview_.ShowBalls(state.tissue, std::span(&*patch, 1), 0);
   if (!has_tissue || state.steps.tissue->page != TissuePage::kCut)
     return overview_.ShowBalls(-1, {}, -1);
   const Tissue& tissue = tissues[static_cast<std::size_t>(state.tissue)];
@@ -395,6 +403,9 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input, do
     state.dragging = true;
     PlaceTissue(state, index, pose, "Place");
     if (finished) EndDrag(state);
+  };
+  overview_.on_part = [&state](const Pose& pose, bool finished) {
+    PlacePart(state, pose, finished);
   };
   overview_held_ = input.owned || input.wheel != 0;
   using Kind = PointerEvent::Kind;
@@ -465,6 +476,7 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input, do
     overview_.Handle(event);
   }
   overview_.on_pose = {};
+  overview_.on_part = {};
 }
 
 }  // namespace arthro::app

@@ -21,6 +21,7 @@
 #include "app/view/arthroscopic_view.h"
 #include "app/view/live_tissues.h"
 #include "app/view/overview/overview.h"
+#include "authoring/alignment/scene_point.h"
 #include "authoring/tissue/surface_faults.h"
 
 namespace arthro::app {
@@ -71,6 +72,11 @@ class Pictures {
   // Pixel of the overview for a place; nothing behind its camera.
   std::optional<glm::dvec2> OverviewPixelOf(const glm::dvec3& x_in_portal) const {
     return overview_.PixelOf(x_in_portal);
+  }
+  // Line of sight through a pixel of the overview.
+  authoring::Sight OverviewSight(const glm::dvec2& pixel) const {
+    const Overview::Line line = overview_.LineThrough(pixel.x, pixel.y);
+    return {line.eye, line.direction, line.px_per_radian};
   }
   const std::string& notice() const {
     if (!cut_fault_.empty()) return cut_fault_;

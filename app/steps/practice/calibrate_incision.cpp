@@ -18,7 +18,10 @@ void Open(EditorState& state, DeviceRole role) {
   state.practice->Advance(0.0, state.steps.practice->hands.get());
   state.steps.practice->hands->Calibrate(role);
   const simulation::HandNow hand = state.steps.practice->hands->Now(role);
-  const DeviceRig mount = state.steps.practice->hands->MountOf(role, state.document().scene);
+  DeviceRig mount = state.steps.practice->hands->MountOf(role, state.document().scene);
+  if (role == DeviceRole::kInstrument)
+    mount.rod_length +=
+        state.steps.practice->hands->TipBeyondRod(state.practice->instrument_kind());
   state.steps.practice->calibrating.emplace(PivotCalibrating{
       role,
       simulation::PivotWork(mount.rod_length, simulation::PivotOptionsOf(hand.situation.caps)), "",

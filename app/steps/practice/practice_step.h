@@ -21,6 +21,7 @@ namespace arthro::app {
 
 struct Area;
 struct FrameBudget;
+struct GridLens;
 struct RigEditing;
 struct Ui;
 
@@ -75,6 +76,7 @@ struct PracticeStep {
   Jobs pivot_jobs;                             // pivot fits
   bool shows_devices = false;                  // their panel, instead of the practice's
   Owned<RigEditing> rig;                       // rig that is edited (rig_edit.h)
+  Owned<GridLens> grid;                        // lens from pictures of a grid (lens/grid_lens.h)
   Owned<FrameBudget> budget;                   // costs on this machine (app/steps/budget)
   Disturbing disturbing;                       // disturbances of the picture
   simulation::CameraHead head;                 // camera head of the scope
@@ -103,6 +105,8 @@ std::span<const Command> RigCommands();          // rigs, and the instruments of
 std::span<const Command> IncisionCommands();     // calibration of incisions
 
 void PracticeStepPanel(Ui& ui, EditorState& state);
+// Time, force and contact of the practice that runs, for pages that stand in the place of its own.
+void SessionStrip(Ui& ui, const EditorState& state);
 void DevicesPanel(Ui& ui, EditorState& state);
 void ForcePanel(Ui& ui, EditorState& state);
 void RigPanel(Ui& ui, EditorState& state);

@@ -30,6 +30,14 @@ void StartPractice(EditorState& state, std::function<void(EditorState&)> then) {
         now.practice.emplace(std::move(*practice));
         now.steps.practice->head.turn = 0;
         now.message = "Practice. Esc leaves it.";
+        if (now.record.is_on) {
+          now.message =
+              "Practice. Esc leaves it. The script takes its buttons and not its hands, which "
+              "follow time: practise --log records those.";
+          now.record.lines.push_back(
+              "# The hands of a practice follow time and are not here; practise --log records "
+              "them.");
+        }
         if (then) then(now);
       };
     });

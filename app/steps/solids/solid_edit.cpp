@@ -1,9 +1,12 @@
 #include "app/steps/solids/solid_edit.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
 
 #include "app/state/edits.h"
 #include "app/steps/tissue/tissue_step.h"
@@ -73,6 +76,21 @@ void ChangeSolid(EditorState& state, const Solid& next, const std::string& what)
     }
   }
   if (!state.dragging) EndDrag(state);
+}
+
+// A plane has no end; it is shown as a disc.
+SharedSurface SurfaceOfPart(const SolidPart& part) {
+  if (!std::holds_alternative<PlanePart>(part))
+    return Share(SurfaceOfSolid(Solid{{part}}, kPreviewCells));
+  constexpr double kDisc = 6e-3;  // m
+  constexpr int kCorners = 32;
+  SurfaceMesh disc{{{0, 0, 0}}, {}};
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCorners;
+    disc.vertices.emplace_back(kDisc * std::cos(angle), kDisc * std::sin(angle), 0);
+    disc.triangles.push_back({0, 1 + i, 1 + (i + 1) % kCorners});
+  }
+  return Share(std::move(disc));
 }
 
 }  // namespace
@@ -168,6 +186,48 @@ void SetSolidPart(EditorState& state, const SolidPart& changed, const std::strin
   Solid next = *solid;
   next.parts[static_cast<std::size_t>(EditingOf(state).part)] = changed;
   ChangeSolid(state, next, what);
+}
+
+PartInPortal ChosenPart(EditorState& state) {
+  if (state.step != Step::kTissue || state.steps.tissue->page != TissuePage::kSolid ||
+      state.practice)
+    return {};
+  const Solid* solid = ChosenSolid(state);
+  if (solid == nullptr) return {};
+  SolidEditing& editing = EditingOf(state);
+  const SolidPart& part = solid->parts[static_cast<std::size_t>(editing.part)];
+  const Rigid3& place = PlaceOf(part).solid_from_part;
+  SolidPart alone = part;
+  PlaceOf(alone) = {};
+  if (editing.part_of != alone) {
+    editing.part_of = alone;
+    editing.part_surface = SurfaceOfPart(alone);
+  }
+  const Pose& tissue = ChosenTissue(state)->pose;
+  return {editing.part_surface,
+          {tissue * place.translation, glm::normalize(tissue.quaternion * place.rotation),
+           tissue.scale}};
+}
+
+void PlacePart(EditorState& state, const Pose& portal_from_part, bool is_finished) {
+  const Solid* solid = ChosenSolid(state);
+  if (solid == nullptr) return;
+  SolidEditing& editing = EditingOf(state);
+  if (!editing.dragged) editing.dragged = solid->parts[static_cast<std::size_t>(editing.part)];
+  const Pose tissue = ChosenTissue(state)->pose;
+  const glm::dquat turn = glm::conjugate(tissue.quaternion);
+  // Its size first: that moves its centre as well.
+  SolidPart part =
+      Scaled(Solid{{*editing.dragged}}, portal_from_part.scale / tissue.scale).parts[0];
+  PlaceOf(part).solid_from_part = {
+      glm::normalize(turn * portal_from_part.quaternion),
+      turn * (portal_from_part.position - tissue.position) / tissue.scale};
+  PlaceOf(part).blend = PlaceOf(*editing.dragged).blend;
+  state.dragging = !is_finished;
+  SetSolidPart(state, part, "Place a part of");
+  if (!is_finished) return;
+  editing.dragged.reset();
+  EndDrag(state);
 }
 
 }  // namespace arthro::app

@@ -35,7 +35,6 @@ void Replace(EditorState& state, const std::string& what,
       if (found == surfaces.end()) return;  // removed or replaced meanwhile
       const auto at = static_cast<std::size_t>(found - surfaces.begin());
       const bool had_mesh = !now.document().scene.tissues[at].mesh.empty();
-      KeepImportFrame(now, surface, mended);
       Edit(now, what + " " + name, "", [&](authoring::Document& next) {
         next.surfaces[at] = mended;
         next.scene.tissues[at].mesh.clear();

@@ -6,6 +6,7 @@
 #include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/alignment/distance_colours.h"
+#include "authoring/alignment/placing_notes.h"
 #include "authoring/alignment/surface_alignment.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/solids/solid_io.h"
@@ -147,20 +148,62 @@ void MirrorTissue(EditorState& state) {
   Edit(state, "Mirror " + changed.name, "", [&](authoring::Document& next) {
     next.surfaces[index] = mirrored;
     next.scene.tissues[index] = changed;
+    authoring::MirrorInNotes(next.scene, changed.name, at);
     if (function) next.files[changed.surface.generic_string()] = {*function, mirrored, {}};
   });
   if (had_mesh) state.message += "; make its tetrahedra anew.";
 }
 
 void FitToRelief(EditorState& state) {
-  const authoring::SurfaceAlignment found =
-      authoring::AlignSurface(ReliefOf(state), ChosenSurface(state), ChosenTissue(state).pose);
+  const authoring::SurfaceAlignment found = authoring::AlignSurface(
+      ReliefOf(state), ChosenSurface(state), ChosenTissue(state).pose, PatchOf(state));
   if (found.is_aligned) {
     NoteBefore(state);
     SetPose(state, found.portal_from_tissue, "Fit");
     EndDrag(state);
   }
   state.message = found.sentence;
+}
+
+std::optional<Ball> PatchOf(const EditorState& state) {
+  const HandPlacing& placing = state.steps.tissue->placing;
+  if (!IsPlacePage(state) || !placing.patch || placing.patch_tissue != ChosenTissue(state).name)
+    return std::nullopt;
+  return placing.patch;
+}
+
+bool PicksPatch(const EditorState& state) {
+  const HandPlacing& placing = state.steps.tissue->placing;
+  return placing.picks_patch && IsPlacePage(state) && !PlacesLandmarks(state);
+}
+
+void TogglePatch(EditorState& state) {
+  HandPlacing& placing = state.steps.tissue->placing;
+  placing.picks_patch = !PicksPatch(state);
+  placing.lays = false;
+  state.message =
+      placing.picks_patch
+          ? "Click on the part of the tissue that is to lie on the relief; Esc ends this."
+          : "Drags turn and move the views again.";
+}
+
+void TakePatch(EditorState& state, int tissue, const glm::dvec3& x_in_tissue) {
+  if (!PicksPatch(state)) return;
+  if (tissue != state.tissue) {
+    state.message =
+        fmt::format("Another tissue was clicked; click on {}.", ChosenTissue(state).name);
+    return;
+  }
+  HandPlacing& placing = state.steps.tissue->placing;
+  placing.patch = Ball{x_in_tissue, placing.patch_radius / ChosenTissue(state).pose.scale};
+  placing.patch_tissue = ChosenTissue(state).name;
+  placing.picks_patch = false;
+  state.message = "Fit to the relief takes this part now.";
+}
+
+void RemovePatch(EditorState& state) {
+  state.steps.tissue->placing.patch.reset();
+  state.message = "Fit to the relief takes the whole side again.";
 }
 
 bool IsOutlined(const EditorState& state) {
@@ -177,6 +220,7 @@ bool LaysOnRelief(const EditorState& state) {
 void ToggleLaying(EditorState& state) {
   HandPlacing& placing = state.steps.tissue->placing;
   placing.lays = !LaysOnRelief(state);
+  placing.picks_patch = false;
   placing.tissue = ChosenTissue(state).name;
   if (placing.lays) NoteBefore(state);
   state.message = placing.lays ? "Drag over the scope's picture or the overview to lay it there."

@@ -26,9 +26,14 @@ struct HandPlacing {
   bool shows_before = false;     // the tissue is shown where the last fit or alignment found it
   double fade = 0;               // share by which it is faded out of the scope's picture
   std::optional<Pose> before;    // pose to compare with
-  bool lays = false;             // a drag over a picture lays the tissue onto the relief
-  std::string tissue;            // name of the one that is laid
-  std::string before_tissue;     // name of the one that `before` is about
+  // Part of the surface that is fitted to the relief, in the tissue's own frame; none: one side.
+  std::optional<Ball> patch;
+  double patch_radius = 5e-3;  // m of the joint, of the next one
+  bool picks_patch = false;    // a click on the tissue puts the patch there
+  std::string patch_tissue;    // name of the one that `patch` is on
+  bool lays = false;           // a drag over a picture lays the tissue onto the relief
+  std::string tissue;          // name of the one that is laid
+  std::string before_tissue;   // name of the one that `before` is about
   // Relief and fit of the chosen tissue, kept while nothing of them changes.
   struct Kept {
     std::shared_ptr<const DepthMap> depth;
@@ -55,8 +60,15 @@ std::string IntersectionWords(const authoring::ReliefFit& fit);
 void Nudge(EditorState& state, int axis, double sign);
 void NudgeTurn(EditorState& state, int axis, double sign);
 void MirrorTissue(EditorState& state);  // its tetrahedra are to be made anew
-// Refines the pose until the surface lies on the relief.
+// Refines the pose until the surface, or its patch, lies on the relief.
 void FitToRelief(EditorState& state);
+// Patch of the chosen tissue; nothing where there is none.
+std::optional<Ball> PatchOf(const EditorState& state);
+// True while clicks on the chosen tissue put its patch there.
+bool PicksPatch(const EditorState& state);
+void TogglePatch(EditorState& state);
+void TakePatch(EditorState& state, int tissue, const glm::dvec3& x_in_tissue);
+void RemovePatch(EditorState& state);
 
 // Colours of the distances of the chosen tissue from the relief; null where they are not shown.
 std::shared_ptr<const std::vector<glm::dvec3>> ShownDistances(EditorState& state);

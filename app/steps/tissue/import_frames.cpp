@@ -8,6 +8,7 @@
 #include "app/state/edits.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/alignment/place_by_hand.h"
+#include "authoring/project/free_tissue_name.h"
 
 namespace arthro::app {
 namespace {
@@ -22,47 +23,53 @@ bool HasTissue(const EditorState& state, int tissue) {
 
 }  // namespace
 
-const ImportFrame* FrameOf(const EditorState& state, int tissue) {
-  if (!HasTissue(state, tissue)) return nullptr;
-  const auto& surface = state.document().surfaces[static_cast<std::size_t>(tissue)];
-  for (const ImportFrame& frame : FramesOf(state).frames)
-    if (surface && frame.surface.lock() == surface) return &frame;
-  return nullptr;
+std::optional<authoring::ImportFrame> FrameOf(const EditorState& state, int tissue) {
+  if (!HasTissue(state, tissue)) return std::nullopt;
+  const Scene& scene = state.document().scene;
+  const authoring::PlacingNotes notes = authoring::NotesOf(scene);
+  const auto* found =
+      authoring::FrameOf(notes, scene.tissues[static_cast<std::size_t>(tissue)].name);
+  return found != nullptr ? std::optional(*found) : std::nullopt;
 }
 
 int PartnerOfImport(const EditorState& state) {
-  if (FrameOf(state, state.tissue) != nullptr) return state.tissue;
+  if (FrameOf(state, state.tissue)) return state.tissue;
   for (int i = static_cast<int>(state.document().scene.tissues.size()) - 1; i >= 0; --i)
-    if (FrameOf(state, i) != nullptr) return i;
+    if (FrameOf(state, i)) return i;
   return -1;
 }
 
 bool IsLikelyPartner(const EditorState& state, const std::filesystem::path& file,
                      const SurfaceMesh& surface, double metres_per_unit) {
-  const ImportFrame* frame = FrameOf(state, PartnerOfImport(state));
-  return frame != nullptr && frame->folder == file.parent_path() &&
+  const auto frame = FrameOf(state, PartnerOfImport(state));
+  if (!frame) return false;
+  const auto folder = FramesOf(state).folders.find(frame->tissue);
+  return folder != FramesOf(state).folders.end() && folder->second == file.parent_path() &&
          glm::distance(frame->origin, metres_per_unit * authoring::MiddleOf(surface)) < kJoint;
 }
 
-void KeepImportFrame(EditorState& state, const std::shared_ptr<const SurfaceMesh>& old,
-                     const std::shared_ptr<const SurfaceMesh>& now) {
-  auto& frames = state.steps.tissue->imports->frames;
-  const auto found = std::find_if(frames.begin(), frames.end(), [&](const ImportFrame& frame) {
-    return frame.surface.lock() == old;
+void AddImported(EditorState& state, Tissue tissue, const SharedSurface& surface,
+                 authoring::ImportFrame frame) {
+  tissue.name = frame.tissue = authoring::FreeTissueName(state.document().scene, tissue.name);
+  Edit(state, "Add " + tissue.name, "", [&](authoring::Document& next) {
+    next.scene.tissues.push_back(tissue);
+    next.surfaces.push_back(surface);
+    authoring::PlacingNotes notes = authoring::NotesOf(next.scene);
+    authoring::Put(notes, frame);
+    authoring::PutNotes(next.scene, notes);
   });
-  if (found == frames.end()) return;
-  ImportFrame frame = *found;
-  frame.surface = now;
-  frames.push_back(frame);
+  state.tissue = static_cast<int>(state.document().scene.tissues.size()) - 1;
 }
 
 std::vector<int> ImportedTogether(const EditorState& state, int tissue) {
   std::vector<int> others;
-  const ImportFrame* own = FrameOf(state, tissue);
-  if (own == nullptr) return others;
-  for (int i = 0; i < static_cast<int>(state.document().scene.tissues.size()); ++i) {
-    const ImportFrame* frame = i == tissue ? nullptr : FrameOf(state, i);
-    if (frame != nullptr && frame->group == own->group) others.push_back(i);
+  const auto own = FrameOf(state, tissue);
+  if (!own) return others;
+  const Scene& scene = state.document().scene;
+  const authoring::PlacingNotes notes = authoring::NotesOf(scene);
+  for (int i = 0; i < static_cast<int>(scene.tissues.size()); ++i) {
+    const auto* frame = authoring::FrameOf(notes, scene.tissues[static_cast<std::size_t>(i)].name);
+    if (i != tissue && frame != nullptr && frame->group == own->group) others.push_back(i);
   }
   return others;
 }

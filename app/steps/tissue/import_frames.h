@@ -1,29 +1,23 @@
-// Frames of the files from which surfaces were imported: surfaces of one knee lie in one frame, so
-// that a further one can be placed where it belongs beside the others, and all can be moved
-// together. Kept while the window is open. m.
+// Imported surfaces of one knee lie in one frame (authoring/alignment/placing_notes.h), so that a
+// further one can be placed where it belongs beside the others, and all can be moved together. m.
 #pragma once
 
 #include <filesystem>
-#include <memory>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/state/editor_state.h"
+#include "authoring/alignment/placing_notes.h"
 
 namespace arthro::app {
 
-struct ImportFrame {
-  std::weak_ptr<const SurfaceMesh> surface;
-  std::filesystem::path folder;  // folder of its file
-  glm::dvec3 origin{0.0};        // m, the own frame's origin in the file
-  int group = 0;                 // equal for surfaces that keep their places to one another
-};
-
 struct ImportFrames {
-  std::vector<ImportFrame> frames;
   bool keeps_place = false;     // the next import lies beside the one that PartnerOfImport names
   bool moves_together = false;  // a group is placed as one
+  // Folder of the file of each tissue that was imported here.
+  std::map<std::string, std::filesystem::path> folders;
 };
 
 // Tissue of the scene beside which an import keeps its place: the chosen one, or the last one that
@@ -32,10 +26,10 @@ int PartnerOfImport(const EditorState& state);
 // True for a file of the same folder that lies within a joint's size of the partner's.
 bool IsLikelyPartner(const EditorState& state, const std::filesystem::path& file,
                      const SurfaceMesh& surface, double metres_per_unit);
-const ImportFrame* FrameOf(const EditorState& state, int tissue);
-// The new surface stands for the old one.
-void KeepImportFrame(EditorState& state, const std::shared_ptr<const SurfaceMesh>& old,
-                     const std::shared_ptr<const SurfaceMesh>& now);
+std::optional<authoring::ImportFrame> FrameOf(const EditorState& state, int tissue);
+// Adds a tissue with its frame, as one step of the history.
+void AddImported(EditorState& state, Tissue tissue, const SharedSurface& surface,
+                 authoring::ImportFrame frame);
 
 // The other tissues of its group.
 std::vector<int> ImportedTogether(const EditorState& state, int tissue);

@@ -8,6 +8,7 @@
 #include "app/state/edits.h"
 #include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/tissue_step.h"
+#include "authoring/alignment/placing_notes.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -23,45 +24,67 @@ const Tissue* ChosenTissue(const EditorState& state) {
              : nullptr;
 }
 
-void SolveAnew(EditorState& state) {
+// Pairs of the chosen tissue as the document has them.
+authoring::TissueLandmarks KeptOf(const EditorState& state) {
+  const std::string& name = ChosenTissue(state)->name;
+  const authoring::PlacingNotes notes = authoring::NotesOf(state.document().scene);
+  const auto* kept = authoring::LandmarksOf(notes, name);
+  return kept != nullptr ? *kept : authoring::TissueLandmarks{name, ModeOf(state).solves_scale, {}};
+}
+
+// Text that the notes were read from; empty where there are none.
+std::string NotesTextOf(const Scene& scene) {
+  const auto text = scene.extensions.find(authoring::kPlacingKey);
+  return text == scene.extensions.end() ? "" : text->second;
+}
+
+void TakeAnew(EditorState& state) {
   LandmarkMode& mode = ModeOf(state);
   const Tissue* tissue = ChosenTissue(state);
   if (tissue == nullptr) return;
+  const authoring::Document& document = state.document();
+  mode.notes = NotesTextOf(document.scene);
+  mode.depth = document.depth;
+  mode.surface = document.surfaces.at(static_cast<std::size_t>(state.tissue));
+  mode.pose = tissue->pose;
+  const authoring::TissueLandmarks kept = KeptOf(state);
+  mode.pairs = authoring::OnRelief(kept.pairs, document);
+  mode.solves_scale = kept.solves_scale;
+  mode.chosen = std::min(mode.chosen, static_cast<int>(mode.pairs.size()) - 1);
   authoring::LandmarkOptions options;
   options.scale = mode.solves_scale ? authoring::AlignScale::kSolve : authoring::AlignScale::kKeep;
-  const auto& surface = state.document().surfaces.at(static_cast<std::size_t>(state.tissue));
-  mode.alignment = authoring::AlignLandmarks(mode.pairs, tissue->pose, OrEmpty(surface), options);
+  mode.alignment =
+      authoring::AlignLandmarks(mode.pairs, tissue->pose, OrEmpty(mode.surface), options);
+}
+
+// One step of the history; `change` gets a copy of the pairs.
+template <class Change>
+void ChangePairs(EditorState& state, const std::string& what, const Change& change) {
+  authoring::TissueLandmarks kept = KeptOf(state);
+  change(kept);
+  if (kept != KeptOf(state))
+    Edit(state, what + " " + kept.tissue, "", [&](authoring::Document& next) {
+      authoring::PlacingNotes notes = authoring::NotesOf(next.scene);
+      authoring::Put(notes, kept);
+      authoring::PutNotes(next.scene, notes);
+    });
+  TakeAnew(state);
 }
 
 // Makes a pair of both halves once they are there.
 void Complete(EditorState& state) {
   LandmarkMode& mode = ModeOf(state);
   if (mode.model && mode.scene) {
-    authoring::LandmarkPair& pair = mode.pairs.emplace_back();
-    pair.x_in_tissue = *mode.model;
-    pair.scene = *mode.scene;
+    ChangePairs(state, "Add a landmark of", [&](authoring::TissueLandmarks& kept) {
+      authoring::LandmarkPair& pair = kept.pairs.emplace_back();
+      pair.x_in_tissue = *mode.model;
+      pair.scene = *mode.scene;
+    });
     mode.model.reset();
     mode.scene.reset();
     mode.chosen = static_cast<int>(mode.pairs.size()) - 1;
-    SolveAnew(state);
   }
   state.message = LandmarkPrompt(state);
-}
-
-// Puts the present pairs aside and takes up those of another tissue.
-void TakeLandmarksOf(LandmarkMode& mode, const std::string& tissue) {
-  std::vector<KeptLandmarks> kept = std::move(mode.kept);
-  if (!mode.pairs.empty()) kept.push_back({mode.tissue, std::move(mode.pairs), mode.solves_scale});
-  mode = {};
-  mode.tissue = tissue;
-  const auto own = std::find_if(kept.begin(), kept.end(),
-                                [&](const KeptLandmarks& one) { return one.tissue == tissue; });
-  if (own != kept.end()) {
-    mode.pairs = std::move(own->pairs);
-    mode.solves_scale = own->solves_scale;
-    kept.erase(own);
-  }
-  mode.kept = std::move(kept);
 }
 
 }  // namespace
@@ -79,10 +102,13 @@ void ToggleLandmarks(EditorState& state) {
   const Tissue* tissue = ChosenTissue(state);
   if (tissue == nullptr) return;
   LandmarkMode& mode = ModeOf(state);
-  if (mode.tissue != tissue->name) TakeLandmarksOf(mode, tissue->name);
+  if (mode.tissue != tissue->name) {
+    mode = {};
+    mode.tissue = tissue->name;
+  }
   mode.is_on = true;
   state.steps.tissue->page = TissuePage::kPlace;
-  SolveAnew(state);
+  TakeAnew(state);
   state.message = LandmarkPrompt(state);
 }
 
@@ -91,7 +117,17 @@ void LeaveLandmarks(EditorState& state) {
   mode.is_on = false;
   mode.model.reset();
   mode.scene.reset();
-  state.message = "The landmarks of " + mode.tissue + " are kept.";
+  state.message = "The landmarks of " + mode.tissue + " are kept with the scene.";
+}
+
+void KeepLandmarksFresh(EditorState& state) {
+  if (!PlacesLandmarks(state)) return;
+  const LandmarkMode& mode = ModeOf(state);
+  const authoring::Document& document = state.document();
+  if (mode.notes != NotesTextOf(document.scene) || mode.depth != document.depth ||
+      mode.surface != document.surfaces.at(static_cast<std::size_t>(state.tissue)) ||
+      !(mode.pose == ChosenTissue(state)->pose))
+    TakeAnew(state);
 }
 
 void TakeModelPoint(EditorState& state, int tissue, const glm::dvec3& x_in_tissue) {
@@ -125,38 +161,38 @@ bool HasChosenLandmark(const EditorState& state) {
 
 void RemoveChosenLandmark(EditorState& state) {
   if (!HasChosenLandmark(state)) return;
-  LandmarkMode& mode = ModeOf(state);
-  mode.pairs.erase(mode.pairs.begin() + mode.chosen);
-  if (mode.chosen >= static_cast<int>(mode.pairs.size())) --mode.chosen;
-  SolveAnew(state);
+  ChangePairs(state, "Remove a landmark of", [&](authoring::TissueLandmarks& kept) {
+    kept.pairs.erase(kept.pairs.begin() + ModeOf(state).chosen);
+  });
   state.message = LandmarkPrompt(state);
 }
 
 void RemoveAllLandmarks(EditorState& state) {
   LandmarkMode& mode = ModeOf(state);
-  mode.pairs.clear();
   mode.model.reset();
   mode.scene.reset();
-  mode.chosen = -1;
-  SolveAnew(state);
+  ChangePairs(state, "Remove the landmarks of",
+              [](authoring::TissueLandmarks& kept) { kept.pairs.clear(); });
   state.message = LandmarkPrompt(state);
 }
 
 void LeaveOutLandmark(EditorState& state, int pair, bool is_left_out) {
-  LandmarkMode& mode = ModeOf(state);
-  if (pair < 0 || pair >= static_cast<int>(mode.pairs.size())) return;
-  mode.pairs[static_cast<std::size_t>(pair)].is_left_out = is_left_out;
-  SolveAnew(state);
+  if (pair < 0 || pair >= static_cast<int>(ModeOf(state).pairs.size())) return;
+  ChangePairs(state, is_left_out ? "Leave out a landmark of" : "Take a landmark of",
+              [&](authoring::TissueLandmarks& kept) {
+                kept.pairs[static_cast<std::size_t>(pair)].is_left_out = is_left_out;
+              });
 }
 
 void SolveForScale(EditorState& state, bool solves_scale) {
   ModeOf(state).solves_scale = solves_scale;
-  SolveAnew(state);
+  ChangePairs(state, solves_scale ? "Solve for the scale of" : "Keep the scale of",
+              [&](authoring::TissueLandmarks& kept) { kept.solves_scale = solves_scale; });
 }
 
 void AlignByLandmarks(EditorState& state) {
   LandmarkMode& mode = ModeOf(state);
-  SolveAnew(state);  // the scale that is kept may have changed
+  KeepLandmarksFresh(state);  // the scale that is kept may have changed
   if (!PlacesLandmarks(state) || !mode.alignment.is_aligned()) return;
   const std::string name = ChosenTissue(state)->name;
   NoteBefore(state);

@@ -1,6 +1,7 @@
 // Landmarks that an author pairs by clicks: a point of the chosen tissue's model and its place in
-// the scene, in either order. Every change solves for the pose anew; only *Align* moves the tissue,
-// as one step of the history. m; model points in the tissue's own frame, scene points in the portal
+// the scene, in either order. The pairs are kept with the scene, each change of them as a step of
+// the history, and every change solves for the pose anew; only *Align* moves the tissue. m; model
+// points in the tissue's own frame, scene points in the portal
 // frame.
 #pragma once
 
@@ -15,16 +16,10 @@ namespace arthro::app {
 
 struct Ui;
 
-// Pairs of a tissue whose landmarks are not at hand.
-struct KeptLandmarks {
-  std::string tissue;
-  std::vector<authoring::LandmarkPair> pairs;
-  bool solves_scale = false;
-};
-
 struct LandmarkMode {
   bool is_on = false;
   std::string tissue;  // whose landmarks these are
+  // Those of the document, where their clicks meet its relief (KeepLandmarksFresh).
   std::vector<authoring::LandmarkPair> pairs;
   // The half of a pair that was clicked first.
   std::optional<glm::dvec3> model;
@@ -33,11 +28,17 @@ struct LandmarkMode {
   bool solves_scale = false;
   bool shows_outline = true;  // the tissue is an outline in the scope's picture
   authoring::LandmarkAlignment alignment;
-  std::vector<KeptLandmarks> kept;  // pairs of the other tissues
+  // Source of pairs and alignment.
+  std::string notes;
+  std::shared_ptr<const DepthMap> depth;
+  SharedSurface surface;
+  Pose pose;
 };
 
 // True while clicks place landmarks of the chosen tissue.
 bool PlacesLandmarks(const EditorState& state);
+// Takes pairs and alignment from the document where it has changed, as by an undone step.
+void KeepLandmarksFresh(EditorState& state);
 void ToggleLandmarks(EditorState& state);
 void LeaveLandmarks(EditorState& state);
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -54,6 +55,15 @@ Pose PoseOfImport(const EditorState& state, const SurfaceMesh& surface) {
   return authoring::Uncovered(surface, pose, document, point->normal, view.view);
 }
 
+// Word of a preset that a file's name holds, such as "cartilage"; empty: none.
+std::string MaterialInName(const EditorState& state, std::string name) {
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const simulation::TissuePreset& preset : state.tissue_presets)
+    for (const std::string& word : preset.words)
+      if (name.find(word) != std::string::npos) return word;
+  return "";
+}
+
 }  // namespace
 
 bool IsHidden(const EditorState& state, int tissue) {
@@ -95,27 +105,27 @@ void ImportSurface(EditorState& state, const fs::path& file, SurfaceMesh mesh,
   const double metres_per_unit = MetresPerUnit(unit).value_or(1.0);
   ImportFrames& imports = *state.steps.tissue->imports;
   const int partner = imports.keeps_place ? PartnerOfImport(state) : -1;
-  ImportFrame frame;
-  frame.folder = file.parent_path();
+  authoring::ImportFrame frame;
   Tissue tissue;
   tissue.name = file.stem().string();
+  if (const std::string material = MaterialInName(state, tissue.name); !material.empty())
+    tissue.material = material;
   if (partner >= 0) {
-    const ImportFrame& beside = *FrameOf(state, partner);
+    const authoring::ImportFrame beside = *FrameOf(state, partner);
     frame.origin = beside.origin;
     frame.group = beside.group;
     tissue.pose = state.document().scene.tissues[static_cast<std::size_t>(partner)].pose;
   } else {
     // Its own origin becomes its middle, so that turning turns it on the spot.
     frame.origin = metres_per_unit * authoring::MiddleOf(mesh);
-    for (const ImportFrame& other : imports.frames)
+    for (const authoring::ImportFrame& other : authoring::NotesOf(state.document().scene).imports)
       frame.group = std::max(frame.group, other.group + 1);
   }
   for (auto& x : mesh.vertices) x = metres_per_unit * x - frame.origin;
   if (partner < 0) tissue.pose = PoseOfImport(state, mesh);
-  const auto surface = std::make_shared<const SurfaceMesh>(std::move(mesh));
-  frame.surface = surface;
-  imports.frames.push_back(frame);
-  AddTissue(state, std::move(tissue), surface);
+  AddImported(state, std::move(tissue), std::make_shared<const SurfaceMesh>(std::move(mesh)),
+              frame);
+  imports.folders[state.document().scene.tissues.back().name] = file.parent_path();
   state.step = Step::kTissue;
   state.steps.tissue->page = TissuePage::kPlace;  // it is placed before anything else
   if (partner >= 0)

@@ -151,15 +151,19 @@ Overview::Overview() : parts_(std::make_unique<Parts>()) {
   p.box_moved->SetCallback([](vtkObject*, unsigned long event, void* data, void*) {
     auto& overview = *static_cast<Overview*>(data);
     Parts& parts = *overview.parts_;
-    if (parts.chosen < 0) return;
+    if (parts.Held() == nullptr) return;
     vtkNew<vtkTransform> transform;
     parts.box_look->GetTransform(transform);
-    auto& model = parts.tissues[std::size_t(parts.chosen)];
+    auto& model = *parts.Held();
     model.pose = PoseOf(*transform->GetMatrix());
     model.actor->SetUserMatrix(MatrixOf(model.pose));
     parts.changed = true;
-    if (overview.on_pose)
-      overview.on_pose(parts.chosen, model.pose, event == vtkCommand::EndInteractionEvent);
+    const bool is_finished = event == vtkCommand::EndInteractionEvent;
+    if (parts.part.actor) {
+      if (overview.on_part) overview.on_part(model.pose, is_finished);
+    } else if (overview.on_pose) {
+      overview.on_pose(parts.chosen, model.pose, is_finished);
+    }
   });
   p.box->AddObserver(vtkCommand::InteractionEvent, p.box_moved);
   p.box->AddObserver(vtkCommand::EndInteractionEvent, p.box_moved);

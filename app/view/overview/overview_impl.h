@@ -72,6 +72,9 @@ struct Overview::Parts {
   Pose drag_pose;
 
   std::vector<Model> tissues;
+  // Part that has the handle instead of the chosen tissue; without an actor: none.
+  Model part;
+  SharedSurface part_surface;
   std::vector<Ball> balls;
   Pose balls_pose;
   bool shows_balls = false;
@@ -82,6 +85,10 @@ struct Overview::Parts {
   bool changed = true;
   bool dragging = false;
   int width = 0, height = 0;
+
+  // Object of box and handle; nullptr: nothing, or something without a surface.
+  Model* Held();
+  const Model* Held() const { return const_cast<Parts*>(this)->Held(); }
 
   void BuildScene();
   void PlaceBox();

@@ -88,17 +88,16 @@ glm::dvec3 Overview::Parts::ArmOf(const Model& model, int axis) const {
 }
 
 void Overview::Parts::PlaceArms() {
-  const bool shown = chosen >= 0 && !tissues[std::size_t(chosen)].surface.triangles.empty();
+  const Model* held_model = Held();
   for (int axis = 0; axis < 3; ++axis) {
     auto& actor = arm_actors[std::size_t(axis)];
     if (!actor) {
       actor = MakeActor(kArmColours[axis], 0.7);
       renderer->AddActor(actor);
     }
-    actor->SetVisibility(shown ? 1 : 0);
-    if (!shown) continue;
-    const Model& model = tissues[std::size_t(chosen)];
-    const glm::dvec3 from = MiddleOf(model), to = from + ArmOf(model, axis);
+    actor->SetVisibility(held_model != nullptr ? 1 : 0);
+    if (held_model == nullptr) continue;
+    const glm::dvec3 from = MiddleOf(*held_model), to = from + ArmOf(*held_model, axis);
     SetData(*actor, MakeBars({{from, to}}, kArmRadius));
   }
 }
@@ -113,9 +112,8 @@ void Overview::ShowArms(Arms arms) {
 std::vector<glm::dvec2> Overview::ArmPlaces() const {
   const Parts& p = *parts_;
   std::vector<glm::dvec2> places;
-  if (p.chosen < 0 || p.height < 1) return places;
-  const Parts::Model& model = p.tissues[std::size_t(p.chosen)];
-  if (model.surface.triangles.empty()) return places;
+  if (p.Held() == nullptr || p.height < 1) return places;
+  const Parts::Model& model = *p.Held();
   for (int axis = 0; axis < 3; ++axis)
     places.push_back(PixelOf(p.MiddleOf(model) + p.ArmOf(model, axis)).value_or(glm::dvec2(-1e6)));
   return places;
@@ -136,12 +134,12 @@ bool Overview::DragArm(const PointerEvent& event) {
     if (found == ends.end()) return false;
     p.dragged_arm = static_cast<int>(found - ends.begin());
     p.drag_from = at;
-    p.drag_pose = p.tissues[std::size_t(p.chosen)].pose;
+    p.drag_pose = p.Held()->pose;
     return true;
   }
-  if (p.dragged_arm < 0 || p.chosen < 0) return false;
+  if (p.dragged_arm < 0 || p.Held() == nullptr) return false;
   const bool is_finished = event.kind == Kind::kRelease;
-  Parts::Model model = p.tissues[std::size_t(p.chosen)];
+  Parts::Model model = *p.Held();
   model.pose = p.drag_pose;
   const glm::dvec3 middle = p.MiddleOf(model), arm = p.ArmOf(model, p.dragged_arm);
   const auto from = PixelOf(middle), to = PixelOf(middle + arm);
@@ -153,6 +151,14 @@ bool Overview::DragArm(const PointerEvent& event) {
   if (length2 < kLeastWay) return true;
   Pose moved = p.drag_pose;
   moved.position += glm::dot(at - p.drag_from, way) / length2 * arm;
+  if (p.part.actor) {
+    p.part.pose = moved;
+    p.part.actor->SetUserMatrix(MatrixOf(moved));
+    p.PlaceBox();
+    p.changed = true;
+    if (on_part) on_part(moved, is_finished);
+    return true;
+  }
   if (on_pose) on_pose(p.chosen, moved, is_finished);
   SetTissuePose(p.chosen, moved);
   return true;

@@ -48,15 +48,20 @@ Pose PoseOf(const vtkMatrix4x4& matrix) {
   return pose;
 }
 
+Overview::Parts::Model* Overview::Parts::Held() {
+  if (chosen < 0) return nullptr;
+  Model& held_model = part.actor ? part : tissues[std::size_t(chosen)];
+  return held_model.surface.triangles.empty() ? nullptr : &held_model;
+}
+
 void Overview::Parts::PlaceBox() {
-  const bool shown = chosen >= 0 && !tissues[std::size_t(chosen)].surface.triangles.empty();
   PlaceArms();
-  if (!shown) {
+  if (Held() == nullptr) {
     box->Off();
     return;
   }
   // The box is that of the resting surface in its own frame; its transform is the pose.
-  Model& model = tissues[std::size_t(chosen)];
+  Model& model = *Held();
   double bounds[6];
   model.data->GetBounds(bounds);
   box_look->PlaceWidget(bounds);
@@ -143,6 +148,33 @@ void Overview::ChooseTissue(int index) {
   p.changed = true;
 }
 
+void Overview::ShowPart(SharedSurface surface, const Pose& portal_from_part) {
+  Parts& p = *parts_;
+  if (p.dragging || p.dragged_arm >= 0) return;
+  const bool is_same_surface = surface == p.part_surface;
+  if (is_same_surface && (!surface || portal_from_part == p.part.pose)) return;
+  if (!is_same_surface && p.part.actor) {
+    p.renderer->RemoveActor(p.part.actor);
+    p.part = {};
+  }
+  p.part_surface = surface;
+  if (surface) {
+    if (!p.part.actor) {
+      p.part.surface = *surface;
+      p.part.data = MakeSurfaceData(p.part.surface);
+      p.part.actor = MakeActor({1.0, 0.85, 0.3});
+      p.part.actor->ForceTranslucentOn();
+      p.part.actor->GetProperty()->SetOpacity(0.35);
+      SetData(*p.part.actor, p.part.data);
+      p.renderer->AddActor(p.part.actor);
+    }
+    p.part.pose = portal_from_part;
+    p.part.actor->SetUserMatrix(MatrixOf(portal_from_part));
+  }
+  p.PlaceBox();
+  p.changed = true;
+}
+
 void Overview::ShowBalls(int tissue, std::span<const Ball> balls, int chosen) {
   Parts& p = *parts_;
   if (tissue >= static_cast<int>(p.tissues.size())) tissue = -1;
@@ -211,9 +243,8 @@ std::optional<glm::dvec2> Overview::PixelOf(const glm::dvec3& x_in_portal) const
 
 std::optional<glm::dvec2> Overview::HandlePlace() const {
   const Parts& p = *parts_;
-  if (p.chosen < 0 || p.height < 1) return std::nullopt;
-  const Parts::Model& model = p.tissues[std::size_t(p.chosen)];
-  if (model.surface.triangles.empty()) return std::nullopt;
+  if (p.Held() == nullptr || p.height < 1) return std::nullopt;
+  const Parts::Model& model = *p.Held();
   double middle[3];
   model.data->GetCenter(middle);
   const auto place = PixelOf(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -173,6 +174,13 @@ DeviceRig Hands::MountOf(DeviceRole role, const Scene& scene) const {
   if (const auto& own = RigOf(role)) mount = own->mount;
   if (const auto& pivot = pivots_[Index(role)]) mount.pivot = *pivot;
   return mount;
+}
+
+double Hands::TipBeyondRod(ToolKind kind) const noexcept {
+  const auto& own = RigOf(DeviceRole::kInstrument);
+  for (std::size_t i = 0; own && i < std::size(kInstrumentKinds); ++i)
+    if (ToolKindFromString(kInstrumentKinds[i]) == kind) return own->tip_offsets.beyond_rod[i];
+  return 0;
 }
 
 void Hands::LowerLimits(SessionOptions& options) const noexcept {

@@ -17,6 +17,7 @@
 #include "simulation/practice/hands/held_hands.h"
 #include "simulation/practice/hands/why_no_force.h"
 #include "simulation/practice/session_options.h"
+#include "simulation/tissue/contact/tool_shape.h"
 
 namespace arthro::simulation {
 
@@ -51,6 +52,9 @@ class Hands {
 
   // Mount of this hand: calibrated since the start, else of the rig, else of the scene.
   DeviceRig MountOf(DeviceRole role, const Scene& scene) const;
+
+  // How far the tip of an instrument lies beyond the end of the rod of the rig, m.
+  double TipBeyondRod(ToolKind kind) const noexcept;
 
   // Makes the hands of a practice, at the poses of mouse and keys. This must outlive them. They are
   // shared so that this can tell when they are gone.

@@ -133,8 +133,17 @@ void Practice::Begin(Hands* hands) {
                                        held_->Of(DeviceRole::kInstrument), options);
 }
 
+// The rod ends at the tip of the instrument that it holds now.
+void Practice::MountInstrument(const Hands& hands) noexcept {
+  auto& mount = request_.mount[Index(DeviceRole::kInstrument)];
+  DeviceRig held = mount_[Index(DeviceRole::kInstrument)];
+  held.rod_length += hands.TipBeyondRod(request_.instrument);
+  if (mount || held.rod_length != mount_[Index(DeviceRole::kInstrument)].rod_length) mount = held;
+}
+
 // Sends poses, buttons, mounts and modes to the hands and the servo.
 void Practice::SendRequests(Hands* hands, double until) noexcept {
+  if (hands != nullptr) MountInstrument(*hands);
   HandsRequest request;
   request.until = until;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -216,7 +225,7 @@ void Practice::Advance(double seconds, Hands* hands) {
 }
 
 void Practice::SetMount(DeviceRole role, const DeviceRig& mount) {
-  request_.mount[Index(role)] = mount;
+  request_.mount[Index(role)] = mount_[Index(role)] = mount;
 }
 
 void Practice::ResetTissues() {

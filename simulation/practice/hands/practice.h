@@ -80,6 +80,7 @@ class Practice {
  private:
   void Begin(Hands* hands);
   void SendRequests(Hands* hands, double until) noexcept;
+  void MountInstrument(const Hands& hands) noexcept;
   void TakeReports();
   void MoveEye();
 
@@ -89,8 +90,9 @@ class Practice {
   ServoRequest request_;
   void Log(Hands& hands) noexcept;
   std::optional<LoggedWish> logged_;  // last wish in the log
-  std::array<DeviceRig, 2> mount_;    // indexed by DeviceRole; at the beginning
-  OptionNumbers logged_options_;      // last options in the log
+  // Indexed by DeviceRole: at the beginning, or as it was calibrated; without the instrument's tip.
+  std::array<DeviceRig, 2> mount_;
+  OptionNumbers logged_options_;  // last options in the log
   std::uint32_t resets_ = 0;
   Snapshot snapshot_;
   ScopeEye eye_;

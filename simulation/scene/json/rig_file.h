@@ -6,6 +6,7 @@
 
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -64,21 +65,43 @@ struct RigDevice {
   }
 };
 
+// Instruments of different lengths on one rod: how far the tip of each lies beyond the end of the
+// rod, m, along it; negative for a shorter one. In the order of kInstrumentKinds.
+struct TipOffsets {
+  std::array<double, std::size(kInstrumentKinds)> beyond_rod{};
+  friend bool operator==(const TipOffsets&, const TipOffsets&) = default;
+  template <class V>
+  void Visit(V&& v) {
+    constexpr Range kBeyond{-0.1, 0.1};  // m; a longer one is another rod
+    constexpr const char* kHelp[] = {
+        "Tip of the probe beyond the end of the rod; negative: before it.",
+        "Tip of the punch beyond the end of the rod; negative: before it.",
+        "Tip of the shaver beyond the end of the rod; negative: before it.",
+        "Tip of the grasper beyond the end of the rod; negative: before it."};
+    for (std::size_t i = 0; i < beyond_rod.size(); ++i)
+      v(kInstrumentKinds[i], beyond_rod[i], LeftOutAt{0.0, kBeyond}, "m", kHelp[i]);
+  }
+};
+
+// A shorter rod does not reach a joint through its incision, a longer one is no instrument. m
+inline constexpr Range kRodRange{0.05, 0.6};
+
 struct RigRole {
   RigDevice device;
   DeviceRig mount;
+  TipOffsets tip_offsets;       // beyond the instrument's rod
   double hand_to_incision = 0;  // m, with the handle in its rest; 0: not given
   double max_force = 0;         // N; 0: what the device bears
   double max_stiffness = 0;     // N/m at the hand; 0: what it renders
   RigButtons buttons = kNoButtons;
   template <class V>
   void Visit(V&& v) {
-    // A shorter rod does not reach a joint through its incision, a longer one is no instrument. m
-    constexpr Range kRod{0.05, 0.6};
     v("device", device, Required{Any{}}, "", "Device that is held.");
-    v("rod_length", mount.rod_length, Required{kRod}, "m", "From the hand to the tip.");
+    v("rod_length", mount.rod_length, Required{kRodRange}, "m", "From the hand to the tip.");
     v("hand_to_incision", hand_to_incision, LeftOutAt{0.0, kLength}, "m",
       "From the hand to the incision, with the handle in its rest; checked against the rod.");
+    v("tip_offsets", tip_offsets, Any{}, "",
+      "Instruments that are longer or shorter than the rod; only the instrument's hand has them.");
     mount.Visit(v, false);
     v("max_force", max_force, LeftOutAt{0.0, Range{0, 20, true}}, "N",
       "Largest force; the device's own if not given.");

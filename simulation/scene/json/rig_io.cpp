@@ -62,11 +62,29 @@ class RigCheck {
             fmt::format("is {} m and the rod {} m, so its tip would not reach the incision; were "
                         "the two lengths swapped?",
                         role.hand_to_incision, role.mount.rod_length));
+    TipOffsets offsets = role.tip_offsets;
+    offsets.Visit([&](const char* kind, double beyond, const auto&, const char*, const char*) {
+      Tip(name, role, kind, beyond);
+    });
   }
 
   void Together(const RigFile& rig);
 
  private:
+  void Tip(const std::string& owner, const RigRole& role, const char* kind, double beyond) {
+    if (beyond == 0) return;
+    const std::string key = fmt::format("{}.tip_offsets.{}", owner, kind);
+    const double length = role.mount.rod_length + beyond;
+    if (owner == "scope")
+      Fault(key, "belongs to an instrument; move tip_offsets to instrument");
+    else if (length < kRodRange.min || length > kRodRange.max)
+      Fault(key, fmt::format("makes the rod {:.4g} m long; with its tip it must be {} to {} m",
+                             length, kRodRange.min, kRodRange.max));
+    else if (role.hand_to_incision >= length)
+      Fault(key, fmt::format("makes the rod {:.4g} m long, so its tip would not reach the incision "
+                             "{:.4g} m from the hand",
+                             length, role.hand_to_incision));
+  }
   void Fault(const std::string& key, const std::string& sentence) {
     faults_.push_back({key, key + " " + sentence});
   }
@@ -134,8 +152,9 @@ std::string RigSchemaText() {
       kSchema, "Arthroscene rig, version 1",
       "Which device holds the scope and which the instrument, and how each is mounted on its "
       "incision. SI units, device frame. Roles follow serial numbers, as `arthroscene devices` "
-      "lists them. This schema cannot express five rules. A hand_to_incision is shorter than its "
-      "rod. Two devices of one family both need a serial. Pads hold no hand. An openhaptics is no "
+      "lists them. This schema cannot express six rules. A hand_to_incision is shorter than its "
+      "rod. Only the instrument has tip_offsets, and its rod with each has the length of a rod. "
+      "Two devices of one family both need a serial. Pads hold no hand. An openhaptics is no "
       "pedal. Numbers of buttons differ.",
       SchemaOfFields(RigFile()));
   json["anyOf"] = {{{"required", {"scope"}}}, {{"required", {"instrument"}}}};

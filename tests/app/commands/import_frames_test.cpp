@@ -13,7 +13,9 @@
 #include "app/state/command.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/alignment/place_by_hand.h"
+#include "authoring/project/document_io.h"
 #include "tests/support/shapes.h"
+#include "tests/support/temp_folder.h"
 
 namespace arthro::app {
 namespace {
@@ -87,6 +89,16 @@ TEST_F(ImportFramesTest, ASecondSurfaceKeepsItsPlaceBesideTheFirst) {
   EXPECT_TRUE(ImportedTogether(*state, 2).empty());
 }
 
+TEST_F(ImportFramesTest, AFileThatIsNamedAfterAMaterialGetsIt) {
+  simulation::TissuePreset& cartilage = state->tissue_presets.emplace_back();
+  cartilage.name = "cartilage-probe";
+  cartilage.words = {"cartilage"};
+  Import("/knee/R-tibia-Cartilage.stl", {0, 0, 0}, false);
+  Import("/knee/body.stl", {0, 0, 0}, false);
+  EXPECT_EQ(Tissues()[0].material, "cartilage");
+  EXPECT_EQ(Tissues()[1].material, Tissue().material);
+}
+
 TEST_F(ImportFramesTest, AGroupIsPlacedAsOneByOneStep) {
   Import("/knee/a.stl", {0, 0, 0}, false);
   Import("/knee/b.stl", {12, 0, 0}, true);
@@ -98,6 +110,20 @@ TEST_F(ImportFramesTest, AGroupIsPlacedAsOneByOneStep) {
   app::Run(*state, "undo");
   EXPECT_EQ(Tissues()[0].pose.scale, 1.0);
   EXPECT_NEAR(glm::distance(MiddleOf(0), MiddleOf(1)), apart, 1e-12);
+}
+
+TEST_F(ImportFramesTest, AGroupIsKeptWithTheScene) {
+  Import("/knee/a.stl", {100, 200, 300}, false);
+  Import("/knee/b.stl", {112, 200, 300}, true);
+  const test::TempFolder temp;
+  authoring::SaveDocument(state->document(), temp / "saved");
+  StartDocument(*state, authoring::OpenDocument(temp / "saved"), true);
+  EXPECT_EQ(ImportedTogether(*state, 0), std::vector<int>{1});
+  state->tissue = 0;
+  Import("/knee/c.stl", {100, 212, 300}, true);
+  ASSERT_EQ(Tissues().size(), 3u);
+  EXPECT_NEAR(glm::distance(MiddleOf(2), MiddleOf(0)), 12 * kMm, 1e-9)
+      << "it finds its place beside what was imported in an earlier session";
 }
 
 TEST_F(ImportFramesTest, OnlyAFileFromBesideItIsALikelyPartner) {

@@ -9,8 +9,12 @@
 #include "app/editor/every_step.h"
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
+#include "app/state/edits.h"
 #include "app/steps/tissue/tissue_step.h"
+#include "authoring/alignment/placing_notes.h"
+#include "authoring/project/document_io.h"
 #include "tests/support/shapes.h"
+#include "tests/support/temp_folder.h"
 
 namespace arthro::app {
 namespace {
@@ -72,7 +76,12 @@ TEST_F(Landmarks, HalvesOfAPairMayBeClickedInEitherOrder) {
   TakeModelPoint(*state, 0, glm::dvec3(4, 2, 3) * kMm);
   ASSERT_EQ(Mode().pairs.size(), 2u);
   EXPECT_EQ(Mode().pairs[1].x_in_tissue, glm::dvec3(4, 2, 3) * kMm);
-  EXPECT_FALSE(state->history.CanUndo()) << "nothing of the scene has changed";
+  app::Run(*state, "undo");
+  KeepLandmarksFresh(*state);
+  EXPECT_EQ(Mode().pairs.size(), 1u) << "a pair is one step of the history";
+  app::Run(*state, "redo");
+  KeepLandmarksFresh(*state);
+  EXPECT_EQ(Mode().pairs.size(), 2u);
 }
 
 TEST_F(Landmarks, AlignIsOneStepThatCanBeUndone) {
@@ -139,6 +148,46 @@ TEST_F(Landmarks, LeavingKeepsThePairsOfEachTissue) {
   app::Run(*state, "landmarks");
   EXPECT_EQ(Mode().pairs.size(), 4u) << "those of the first tissue are still there";
   EXPECT_TRUE(Mode().alignment.is_aligned());
+}
+
+TEST_F(Landmarks, AreKeptWithTheSceneUnderTheNameOfTheirTissue) {
+  app::Run(*state, "landmarks");
+  SolveForScale(*state, true);
+  MakePairs();
+  LeaveOutLandmark(*state, 2, true);
+  const std::vector<authoring::LandmarkPair> pairs = Mode().pairs;
+  app::Run(*state, "leave-landmarks");
+  Tissue renamed = state->document().scene.tissues[0];
+  renamed.name = "slab";
+  SetTissue(*state, 0, renamed, "Rename");
+  const test::TempFolder temp;
+  authoring::SaveDocument(state->document(), temp / "saved");
+  StartDocument(*state, authoring::OpenDocument(temp / "saved"), true);
+  state->tissue = 0;
+  state->step = Step::kTissue;
+  app::Run(*state, "landmarks");
+  ASSERT_EQ(Mode().pairs.size(), pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    EXPECT_EQ(Mode().pairs[i].x_in_tissue, pairs[i].x_in_tissue);
+    EXPECT_LT(glm::distance(Mode().pairs[i].scene.x_in_portal, pairs[i].scene.x_in_portal), 1e-9);
+    EXPECT_EQ(Mode().pairs[i].is_left_out, i == 2);
+  }
+  EXPECT_TRUE(Mode().solves_scale);
+  RemoveTissue(*state, 0);
+  EXPECT_FALSE(state->document().scene.extensions.contains(authoring::kPlacingKey))
+      << "they go with their tissue";
+}
+
+// A click is a line of sight: on another relief it meets another place.
+TEST_F(Landmarks, FollowTheRelief) {
+  app::Run(*state, "landmarks");
+  MakePairs();
+  Edit(*state, "Raise the relief", "", [](authoring::Document& next) {
+    next.depth = Share(DepthMap(next.depth->width, next.depth->height, 0.01f));
+  });
+  KeepLandmarksFresh(*state);
+  for (const authoring::LandmarkPair& pair : Mode().pairs)
+    EXPECT_NEAR(glm::length(pair.scene.x_in_portal), 0.04, 1e-4);
 }
 
 TEST_F(Landmarks, TheTissueCanBeShownAsItWasBeforeTheAlignment) {

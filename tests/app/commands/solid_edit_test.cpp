@@ -45,6 +45,34 @@ TEST_F(SolidEdit, ANewSolidLiesOnTheReliefByOneStep) {
   EXPECT_EQ(Parts().size(), 1u);
 }
 
+TEST_F(SolidEdit, TheHandleOfAPartMovesTurnsAndSizesItAsOneStep) {
+  Do("add-solid");
+  Do("add-capsule");
+  const std::size_t step = state->history.Position();
+  const PartInPortal part = ChosenPart(*state);
+  ASSERT_TRUE(part.surface);
+  const auto before = std::get<CapsulePart>(Parts()[1]);
+  Pose to = part.pose;
+  to.position += 0.001 * glm::normalize(to.position);
+  to.scale *= 1.5;
+  PlacePart(*state, part.pose, false);
+  PlacePart(*state, to, false);
+  PlacePart(*state, to, true);
+  const auto after = std::get<CapsulePart>(Parts()[1]);
+  EXPECT_NEAR(after.radius, 1.5 * before.radius, 1e-12);
+  EXPECT_NEAR(glm::distance(after.place.solid_from_part.translation,
+                            before.place.solid_from_part.translation),
+              0.001, 1e-9);
+  EXPECT_EQ(state->history.Position(), step + 1) << "one step";
+  const PartInPortal now = ChosenPart(*state);
+  EXPECT_LT(glm::distance(now.pose.position, to.position), 1e-12);
+  EXPECT_FALSE(state->steps.tissue->solids->is_coarse);
+  Do("undo");
+  EXPECT_EQ(std::get<CapsulePart>(Parts()[1]), before);
+  state->steps.tissue->page = TissuePage::kPlace;
+  EXPECT_FALSE(ChosenPart(*state).surface) << "only on its page";
+}
+
 TEST_F(SolidEdit, EveryPartIsAddedMovedAndRemovedByOneStepEach) {
   Do("add-solid");
   for (const char* command :

@@ -2,10 +2,12 @@
 #include "app/view/overview/overview.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"
 #include "tests/support/compare_pictures.h"
+#include "tests/support/shapes.h"
 
 namespace arthro::test {
 namespace {
@@ -144,6 +146,41 @@ TEST_F(OverviewTest, ADragOnAnArmMovesAlongItsAxisAlone) {
   }
   overview_->ChooseTissue(-1);
   EXPECT_TRUE(overview_->ArmPlaces().empty());
+}
+
+TEST_F(OverviewTest, APartHasTheHandleInsteadOfItsTissue) {
+  overview_->ChooseTissue(0);
+  const Pose tissue = scene_.scene.tissues[0].pose;
+  Pose at = tissue;
+  at.position += glm::dvec3(0.004, 0, 0);
+  const SharedSurface ball = Share(test::Sphere({0, 0, 0}, 0.002, 3));
+  overview_->ShowPart(ball, at);
+  Pose moved;
+  int calls = 0;
+  overview_->on_part = [&](const Pose& pose, bool) {
+    moved = pose;
+    ++calls;
+  };
+  overview_->Render(kSize, kSize);
+  EXPECT_LT(glm::distance(*overview_->HandlePlace(), *overview_->PixelOf(at.position)), 1.0);
+  calls_ = 0;
+  const auto ends = overview_->ArmPlaces();
+  ASSERT_EQ(ends.size(), 3u);
+  Drag(Button::kLeft, ends[0], ends[0] + (ends[0] - *overview_->HandlePlace()));
+  EXPECT_GT(calls, 0);
+  EXPECT_EQ(calls_, 0) << "the tissue stays";
+  EXPECT_GT(moved.position.x - at.position.x, 2e-3);
+  const glm::dvec2 middle = *overview_->HandlePlace();
+  calls = 0;
+  Drag(Button::kRight, middle, middle - glm::dvec2(0, 50));
+  EXPECT_GT(calls, 0);
+  EXPECT_GT(std::abs(moved.scale / at.scale - 1.0), 0.05);
+  overview_->ShowPart(nullptr, {});
+  calls_ = 0;
+  overview_->Render(kSize, kSize);
+  const glm::dvec2 of_tissue = *overview_->HandlePlace();
+  Drag(Button::kLeft, of_tissue, of_tissue + glm::dvec2(20, 0));
+  EXPECT_GT(calls_, 0) << "it has its handle back";
 }
 
 TEST_F(OverviewTest, MarksAndColoursAreDrawnOnATissueAndGoAgain) {

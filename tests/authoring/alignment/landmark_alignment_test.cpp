@@ -108,7 +108,14 @@ TEST(LandmarkAlignment, RefusesWhatDoesNotDetermineAPose) {
   auto random = Pairs(Truth(), {0, 3, 5, 6});
   random[0].scene.x_in_portal = glm::dvec3(10, 0, 20) * kMm;
   random[2].scene.x_in_portal = glm::dvec3(-10, 9, 44) * kMm;
-  EXPECT_EQ(AlignLandmarks(random, {}, Block()).verdict, AlignVerdict::kInconsistent);
+  const LandmarkAlignment rigid = AlignLandmarks(random, {}, Block());
+  EXPECT_EQ(rigid.verdict, AlignVerdict::kInconsistent);
+  EXPECT_NE(rigid.sentence.find("solve for the scale"), std::string::npos);
+  LandmarkOptions scaled;
+  scaled.scale = AlignScale::kSolve;
+  const LandmarkAlignment free = AlignLandmarks(random, {}, Block(), scaled);
+  EXPECT_EQ(free.verdict, AlignVerdict::kInconsistent);
+  EXPECT_EQ(free.sentence.find("solve for the scale"), std::string::npos) << "it is solved for";
 }
 
 TEST(LandmarkAlignment, WarnsOfLandmarksNearlyOnALine) {

@@ -118,6 +118,60 @@ INSTANTIATE_TEST_SUITE_P(Library, EveryTear, testing::ValuesIn(AllCases()), [](c
   return name + (entry.param.model == ModelKind::kMedialMeniscus ? "Medial" : "Lateral");
 });
 
+// The slot opens by the displacement in the middle and by nothing at its ends, and the surface
+// stays closed.
+TEST(MeniscusTear, ADisplacedHandleLeavesItsRimAndKeepsBothEnds) {
+  for (const KneeSide side : {KneeSide::kLeft, KneeSide::kRight}) {
+    const LibraryModel model = MakeModel(DefaultOptionsOf(ModelKind::kMedialMeniscus), side);
+    TearOptions options(TearKind::kBucketHandle);
+    options.displacement = MetresFromMm(6);
+    SolidField torn = SolidField::FromSurface(model.surface, simulation::BodyOptions{}.cut_spacing);
+    simulation::MakeCuts(torn, TearCuts(model.surface, options), model.fixed);
+    const SurfaceMesh skin = simulation::Polygonise(torn);
+    const SurfaceMesh displaced = WithDisplacedHandle(skin, model.surface, options);
+    ASSERT_EQ(displaced.vertices.size(), skin.vertices.size());
+    EXPECT_EQ(EulerNumber(displaced), 0) << "a handle";
+    double most = 0;
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
+      const double way = glm::distance(skin.vertices[i], displaced.vertices[i]);
+      most = std::max(most, way);
+      moved += way > 0 ? 1 : 0;
+    }
+    EXPECT_NEAR(most, options.displacement, 0.02 * options.displacement);
+    EXPECT_GT(moved, skin.vertices.size() / 10);
+    EXPECT_LT(moved, skin.vertices.size() * 2 / 3) << "the rim stays";
+    // Edges of neighbouring triangles stay short: nothing is torn across the slot.
+    double longest = 0;
+    for (const auto& t : displaced.triangles)
+      for (int k = 0; k < 3; ++k)
+        longest = std::max(
+            longest, glm::distance(displaced.vertices[t[k]], displaced.vertices[t[(k + 1) % 3]]));
+    EXPECT_LT(longest, 5 * simulation::BodyOptions{}.cut_spacing);
+  }
+}
+
+TEST(MeniscusTear, ADisplacementThatDoesNotFitIsRefusedInWords) {
+  const LibraryModel model =
+      MakeModel(DefaultOptionsOf(ModelKind::kMedialMeniscus), KneeSide::kRight);
+  TearOptions radial(TearKind::kRadial);
+  radial.displacement = MetresFromMm(4);
+  EXPECT_THROW(WithDisplacedHandle(model.surface, model.surface, radial), Error);
+  SurfaceMesh small = model.surface;
+  for (glm::dvec3& x : small.vertices) x *= 0.55;
+  TearOptions far(TearKind::kBucketHandle);
+  far.length = MetresFromMm(20);
+  far.rim_width = MetresFromMm(2);
+  far.displacement = MetresFromMm(12);
+  try {
+    WithDisplacedHandle(small, small, far);
+    ADD_FAILURE() << "the handle would lie beyond the notch";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("displace its handle less"), std::string::npos)
+        << error.what();
+  }
+}
+
 // An imported meniscus lies anyhow in its file's frame.
 TEST(MeniscusTear, IsTheSameOnAMeniscusThatWasTurnedAndMoved) {
   const LibraryModel model =

@@ -137,6 +137,20 @@ TEST(RigIo, RefusesInASentence) {
       {[](json& j) { j["instrument"]["device"]["serial"] = "A"; }, "is the scope's", true},
       {[](json& j) { j["instrument"]["device"].erase("serial"); }, "change with the ports", true},
       {[](json& j) { j.erase("scope"), j.erase("instrument"); }, "at least one device"},
+      {[](json& j) { j["scope"]["tip_offsets"]["probe"] = 0.01; }, "belongs to an instrument",
+       true},
+      {[](json& j) { j["instrument"]["tip_offsets"]["probe"] = 0.2; }, "between -0.1 and 0.1"},
+      {[](json& j) { j["instrument"]["tip_offsets"]["hook"] = 0.01; }, "hook"},
+      {[](json& j) {
+         j["instrument"]["rod_length"] = 0.1;
+         j["instrument"]["tip_offsets"]["punch"] = -0.06;
+       },
+       "makes the rod 0.04 m long", true},
+      {[](json& j) {
+         j["instrument"]["hand_to_incision"] = 0.19;
+         j["instrument"]["tip_offsets"]["shaver"] = -0.02;
+       },
+       "would not reach the incision", true},
   };
   for (const Case& own : cases) {
     const json rig = Changed(own.change);
@@ -154,6 +168,18 @@ TEST(RigIo, RefusesInASentence) {
             std::string::npos);
   // Thousands of digits are not said again.
   EXPECT_LT(Refusal("{\"title\": " + std::string(5000, '9') + "e5}").size(), 140u);
+}
+
+TEST(RigIo, TipOffsetsComeBackFromTheFile) {
+  const json given = Changed([](json& j) {
+    j["instrument"]["tip_offsets"] = {{"punch", 0.012}, {"grasper", -0.005}};
+  });
+  EXPECT_TRUE(FitsSchema(given));
+  const RigFile rig = ParseRig(given.dump());
+  EXPECT_EQ(rig.instrument->tip_offsets.beyond_rod, (std::array{0.0, 0.012, 0.0, -0.005}));
+  const RigFile again = ParseRig(RigText(rig));
+  EXPECT_EQ(again.instrument->tip_offsets, rig.instrument->tip_offsets);
+  EXPECT_FALSE(json::parse(RigText(rig))["scope"].contains("tip_offsets")) << "left out where 0";
 }
 
 TEST(RigIo, TheSchemaForOtherToolsIsTheGeneratedOne) {

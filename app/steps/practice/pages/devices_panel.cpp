@@ -102,6 +102,7 @@ void DevicesPanel(Ui& ui, EditorState& state) {
 
 void DevicesPage(Ui& ui, EditorState& state, const Area& area) {
   const FixedWindow window(ui, "devices", area, kPageWindow);
+  SessionStrip(ui, state);
   DevicesPanel(ui, state);
 }
 

@@ -12,6 +12,7 @@ namespace arthro::app {
 
 void DisturbancesPage(Ui& ui, EditorState& state, const Area& area) {
   const FixedWindow window(ui, "disturbances", area, kPageWindow);
+  SessionStrip(ui, state);
   Heading(ui, "Disturbances");
   QuietText(ui, "Difficulties for the trainee. They change the picture, not the forces.");
   Gap(ui);

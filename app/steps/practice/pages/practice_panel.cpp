@@ -79,12 +79,15 @@ void ForceBar(Ui& ui, double force, double peak) {
     draw->AddRectFilled(corner, {std::max(at(force), corner.x + ui.Px(3)), corner.y + height},
                         colour, ui.Px(4));
   // The largest force so far as a line, and where care begins as a thin one.
-  draw->AddLine({at(kForceOfCare), corner.y}, {at(kForceOfCare), corner.y + height}, kQuiet,
-                ui.Px(1));
-  draw->AddLine({at(kForceOfHarm), corner.y}, {at(kForceOfHarm), corner.y + height}, kBad,
-                ui.Px(2));
-  if (peak > 0)
-    draw->AddLine({at(peak), corner.y}, {at(peak), corner.y + height}, 0xFFFFFFFF, ui.Px(2));
+  // With dark edges, so that they are seen on a bar of any colour.
+  const auto mark = [&](double newton, unsigned of_colour, double thick) {
+    draw->AddLine({at(newton), corner.y}, {at(newton), corner.y + height}, 0xD0000000,
+                  ui.Px(thick + 2));
+    draw->AddLine({at(newton), corner.y}, {at(newton), corner.y + height}, of_colour, ui.Px(thick));
+  };
+  mark(kForceOfCare, kQuiet, 1);
+  mark(kForceOfHarm, kBad, 2);
+  if (peak > 0) mark(peak, 0xFFFFFFFF, 2);
   ImGui::Dummy({width, height});
   RecordItem(ui, "Force bar", true, fmt::format("{:.2f} N", force), WidgetKind::kShown);
 }
@@ -210,7 +213,23 @@ bool MissingDevices(Ui& ui, const EditorState& state) {
   return is_any;
 }
 
+unsigned ColourOfForce(double force) {
+  return force < kForceOfCare ? kBright : force < kForceOfHarm ? kWarning : kBad;
+}
+
 }  // namespace
+
+void SessionStrip(Ui& ui, const EditorState& state) {
+  if (!state.practice) return;
+  const auto& instrument = state.practice->snapshot().instrument;
+  const double force = glm::length(instrument.tip_force);
+  ColouredText(ui,
+               fmt::format("{}   {:.2f} N on {}", ClockWords(state.practice->snapshot().t), force,
+                           ContactWords(state, instrument.contact)),
+               ColourOfForce(force));
+  ForceBar(ui, force, state.practice->peak_force());
+  Gap(ui);
+}
 
 void PracticeStepPanel(Ui& ui, EditorState& state) {
   if (state.steps.practice->shows_devices) return DevicesPanel(ui, state);
@@ -245,13 +264,10 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   FilmMark(ui, state, top);
 
   QuietText(ui, "Force on the tissue");
-  LargeText(ui, fmt::format("{:.2f} N", force),
-            force < kForceOfCare   ? kBright
-            : force < kForceOfHarm ? kWarning
-                                   : kBad);
+  LargeText(ui, fmt::format("{:.2f} N", force), ColourOfForce(force));
   ForceBar(ui, force, practice.peak_force());
-  QuietText(ui, fmt::format("largest so far {:.2f} N; harm above {:.1f} N (red mark)",
-                            practice.peak_force(), kForceOfHarm));
+  QuietText(ui, fmt::format("largest {:.2f} N; care {:.0f} N (grey), harm {:.1f} N (red)",
+                            practice.peak_force(), kForceOfCare, kForceOfHarm));
   Gap(ui);
   QuietText(ui, "The instrument touches");
   Heading(ui, ContactWords(state, instrument.contact));

@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "app/panels/command_button.h"
+#include "app/steps/practice/lens/grid_lens.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/practice/rig_edit.h"
 #include "simulation/core/units.h"
@@ -74,6 +75,22 @@ void RodFields(Ui& ui, RigEditing& editing, const std::string& hand, RigRole& ro
   QuietText(ui, fmt::format("Incision at {:.1f}, {:.1f}, {:.1f} mm of the device; the devices page "
                             "calibrates it in a practice.",
                             pivot.x, pivot.y, pivot.z));
+}
+
+// The hand that changes instruments may have longer and shorter ones.
+void TipFields(Ui& ui, RigEditing& editing, TipOffsets& tips) {
+  constexpr const char* kNames[] = {"Tip of the probe", "Tip of the punch", "Tip of the shaver",
+                                    "Tip of the grasper"};
+  static_assert(std::size(kNames) == std::size(kInstrumentKinds));
+  constexpr double kMost = 100;  // mm, as rig files allow
+  for (std::size_t i = 0; i < std::size(kNames); ++i) {
+    double mm = MmFromMetres(tips.beyond_rod[i]);
+    if (!Slider(ui, kNames[i], mm, -kMost, kMost, "%.1f mm",
+                "Beyond the end of the rod; negative: this instrument is shorter."))
+      continue;
+    tips.beyond_rod[i] = MetresFromMm(mm);
+    editing.is_changed = true;
+  }
 }
 
 // `role` is what holds this hand; without one, mouse and keys do.
@@ -150,6 +167,7 @@ void RigPanel(Ui& ui, EditorState& state) {
     if (TextField(ui, "Title of the rig", editing.rig.title)) editing.is_changed = true;
     HandFields(ui, editing, "Scope", editing.rig.scope);
     HandFields(ui, editing, "Instrument", editing.rig.instrument);
+    if (editing.rig.instrument) TipFields(ui, editing, editing.rig.instrument->tip_offsets);
     CommandButton(ui, state, "save-rig", {half, 0});
     ImGui::SameLine(0, ui.Px(8));
     CommandButton(ui, state, "use-rig", {half, 0});
@@ -164,6 +182,8 @@ void RigPanel(Ui& ui, EditorState& state) {
     else
       QuietText(ui, editing.outcome);
   }
+  Gap(ui);
+  GridLensFields(ui, state);
   Gap(ui);
   DeviceList(ui, state);
   Gap(ui);

@@ -1,11 +1,15 @@
 #include "app/steps/tissue/library/tissue_library.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/state/edits.h"
+#include "app/steps/tissue/library/torn_surface.h"
 #include "authoring/models/model_in_scene.h"
 #include "authoring/tissue/tetrahedra/mesh_budget.h"
 #include "simulation/core/error.h"
+#include "simulation/core/units.h"
 #include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/scope/arthroscope.h"
 
@@ -23,9 +27,9 @@ bool NeedsTetrahedra(const authoring::LibraryModel& model) {
   return !model.is_solid && model.material != "cartilage";
 }
 
-}  // namespace
-
-void AddLibraryModel(EditorState& state, authoring::ModelKind kind) {
+// `sight`: a line to its place; none: the middle of the scope's view.
+void AddModelAt(EditorState& state, authoring::ModelKind kind,
+                const std::optional<authoring::Sight>& sight) {
   const ModelShelf& shelf = *state.steps.tissue->shelf;
   const authoring::KneeSide side = shelf.side;
   const authoring::KneeSize size = shelf.size;
@@ -52,15 +56,32 @@ void AddLibraryModel(EditorState& state, authoring::ModelKind kind) {
     }
     return [=](EditorState& now) {
       const auto view = simulation::ViewFromPose(now.scope, now.document().scene.scope.view_angle);
-      const Pose pose = authoring::PoseOnRelief(model, now.document(), view.tip, view.view);
+      const Pose pose =
+          authoring::PoseOnRelief(model, now.document(), sight ? sight->eye : view.tip,
+                                  sight ? sight->direction : view.view);
       Edit(now, "Add " + title, "",
            [&](authoring::Document& next) { authoring::AddModel(next, model, pose, {}, mesh); });
       now.tissue = static_cast<int>(now.document().scene.tissues.size()) - 1;
       now.step = Step::kTissue;
       now.steps.tissue->shelf->is_open = false;
-      now.message = title + " lies on the relief in the middle of the scope's view.";
+      now.message = title + (sight ? " lies on the relief where it was let go."
+                                   : " lies on the relief in the middle of the scope's view.");
     };
   });
+}
+
+}  // namespace
+
+void AddLibraryModel(EditorState& state, authoring::ModelKind kind) {
+  AddModelAt(state, kind, std::nullopt);
+}
+
+void DropLibraryModel(EditorState& state, authoring::ModelKind kind,
+                      const std::optional<authoring::Sight>& sight) {
+  if (sight && authoring::PointOnRelief(state.document(), *sight))
+    AddModelAt(state, kind, sight);
+  else
+    state.message = "Nothing was imaged there; let the model go where the picture shows tissue.";
 }
 
 void ChooseTear(EditorState& state, authoring::TearKind kind) {
@@ -68,6 +89,51 @@ void ChooseTear(EditorState& state, authoring::TearKind kind) {
   shelf.tear = authoring::TearOptions(kind);
   shelf.preview.reset();
 }
+
+namespace {
+
+// A displaced handle is another shape of the tissue, which is filled anew.
+void DisplaceHandle(EditorState& state) {
+  const auto at = static_cast<std::size_t>(state.tissue);
+  const Tissue tissue = state.document().scene.tissues.at(at);
+  const SharedSurface surface = state.document().surfaces.at(at);
+  const authoring::TearOptions tear = state.steps.tissue->shelf->tear;
+  authoring::MeshWish wish;
+  wish.elements = authoring::BudgetOf(state.steps.tissue->mesh_size).elements;
+  wish.fixed = tissue.fixed;
+  const fs::path file = state.scratch.NewFile("displaced-handle.vtu");
+  state.jobs.Start("Displace the handle of " + tissue.name, [=](const Progress& progress) {
+    const SharedSurface displaced =
+        Share(DisplacedHandle(OrEmpty(surface), tear, tissue.fixed, nullptr, progress));
+    authoring::SurfaceSource source;
+    source.file = tissue.name;
+    if (!tissue.is_implicit)
+      WriteTetMesh(file,
+                   authoring::TetrahedralizeToBudget(*displaced, source, wish, nullptr, progress));
+    return [=](EditorState& now) {
+      const auto& surfaces = now.document().surfaces;
+      const auto found = std::find(surfaces.begin(), surfaces.end(), surface);
+      if (found == surfaces.end()) return;  // removed or replaced meanwhile
+      const auto index = static_cast<std::size_t>(found - surfaces.begin());
+      Edit(now, "Displace the handle of " + tissue.name, "", [&](authoring::Document& next) {
+        next.surfaces[index] = displaced;
+        // The slot is part of the new shape, and is not cut a second time.
+        const std::vector<Cut> slot = authoring::TearCuts(OrEmpty(surface), tear);
+        std::erase_if(next.scene.tissues[index].cuts, [&](const Cut& cut) {
+          return std::find(slot.begin(), slot.end(), cut) != slot.end();
+        });
+        if (tissue.is_implicit) return;
+        const std::string name = "tissues/" + file.filename().string();
+        next.scene.tissues[index].mesh = name;
+        next.files[name].file = file;
+      });
+      now.message = fmt::format("Bucket handle of {}, displaced by {:.1f} mm.", tissue.name,
+                                MmFromMetres(tear.displacement));
+    };
+  });
+}
+
+}  // namespace
 
 void MakeChosenTear(EditorState& state) {
   const authoring::Document& document = state.document();
@@ -78,6 +144,7 @@ void MakeChosenTear(EditorState& state) {
     return;
   }
   const authoring::TearOptions& tear = state.steps.tissue->shelf->tear;
+  if (tear.displacement > 0) return DisplaceHandle(state);
   for (Cut& cut : authoring::TearCuts(OrEmpty(document.surfaces.at(at)), tear))
     changed.cuts.push_back(std::move(cut));
   const char* title = authoring::TearEntries()[static_cast<std::size_t>(tear.kind)].title;

@@ -40,6 +40,28 @@ void DistanceLegend(Ui& ui) {
   QuietText(ui, right);
 }
 
+// Part of the surface that the fit takes.
+void PatchFields(Ui& ui, EditorState& state) {
+  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
+  const Command& pick = CommandOf(state, "pick-patch");
+  if (ToggleButton(ui, pick.words, PicksPatch(state), pick.enabled(state), {half, 0}, pick.help))
+    Run(state, pick);
+  ImGui::SameLine(0, ui.Px(8));
+  CommandButton(ui, state, "remove-patch", {half, 0});
+  if (PicksPatch(state) && state.dialogs.empty() && !ImGui::GetIO().WantTextInput &&
+      ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false))
+    TogglePatch(state);
+  HandPlacing& placing = state.steps.tissue->placing;
+  if (!PicksPatch(state) && !PatchOf(state)) return;
+  double mm = MmFromMetres(placing.patch_radius);
+  if (!Slider(ui, "Radius of the part", mm, 1.0, 30.0, "%.1f mm")) return;
+  placing.patch_radius = MetresFromMm(mm);
+  if (PatchOf(state))
+    placing.patch->radius =
+        placing.patch_radius /
+        state.document().scene.tissues[static_cast<std::size_t>(state.tissue)].pose.scale;
+}
+
 }  // namespace
 
 void FitFields(Ui& ui, EditorState& state) {
@@ -52,6 +74,7 @@ void FitFields(Ui& ui, EditorState& state) {
   if (LaysOnRelief(state) && state.dialogs.empty() && !ImGui::GetIO().WantTextInput &&
       ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false))
     ToggleLaying(state);
+  PatchFields(ui, state);
   const authoring::ReliefFit& fit = FitOfChosen(state);
   QuietText(ui, FitWords(fit));
   if (const std::string words = IntersectionWords(fit); !words.empty())

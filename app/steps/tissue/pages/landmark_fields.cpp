@@ -73,6 +73,7 @@ void LandmarkFields(Ui& ui, EditorState& state) {
       ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false))
     LeaveLandmarks(state);
   if (!PlacesLandmarks(state)) return;
+  KeepLandmarksFresh(state);
   ColouredText(ui, LandmarkPrompt(state), kAccent);
   CommandButton(ui, state, "align-landmarks", {-FLT_MIN, ui.Px(32)});
   Rows(ui, state);

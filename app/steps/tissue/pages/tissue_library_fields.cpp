@@ -44,14 +44,19 @@ void DrawThumbnail(Ui& ui, const authoring::ModelThumbnail& thumbnail, const ImV
   }
 }
 
-// A picture with its title below, which runs a command.
-void ModelButton(Ui& ui, EditorState& state, const Command& command,
+// A picture with its title below, which runs a command, or is dragged over a view.
+void ModelButton(Ui& ui, EditorState& state, const Command& command, authoring::ModelKind kind,
                  const authoring::ModelThumbnail* thumbnail, float width) {
   const float picture = ui.Px(64), line = ImGui::GetTextLineHeight();
   const ImVec2 low = ImGui::GetCursorScreenPos(), size(width, picture + line + ui.Px(10));
   const bool is_enabled = command.enabled(state);
   const bool is_pressed = HitArea(command.id, size) && is_enabled;
   const bool is_hovered = ImGui::IsItemHovered();
+  if (ImGui::IsItemActive() && !is_hovered && is_enabled) {
+    ModelShelf& shelf = *state.steps.tissue->shelf;
+    shelf.dragged = kind;
+    shelf.dragged_from = {low.x + 0.5 * size.x, low.y + 0.5 * size.y};
+  }
   RecordItem(ui, command.words, is_enabled);
   Tooltip(ui, command.help);
   ImDrawList* list = ImGui::GetWindowDrawList();
@@ -100,10 +105,12 @@ void TissueLibraryFields(Ui& ui, EditorState& state) {
   const float width = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (i % 2 == 1) ImGui::SameLine(0, ui.Px(8));
-    ModelButton(ui, state, CommandOf(state, std::string("add-") + entries[i].word),
+    ModelButton(ui, state, CommandOf(state, std::string("add-") + entries[i].word), entries[i].kind,
                 shelf.thumbnails[i] ? &*shelf.thumbnails[i] : nullptr, width);
   }
-  QuietText(ui, "It lies on the relief in the middle of the scope's view.");
+  QuietText(ui,
+            "A click lays it in the middle of the scope's view. Or drag it to its place in a "
+            "picture.");
 }
 
 void TissueTearFields(Ui& ui, EditorState& state) {
@@ -132,6 +139,10 @@ void TissueTearFields(Ui& ui, EditorState& state) {
   if (is_long)
     TearSlider(ui, state, "Rim width", tear.rim_width, kMetrePerMillimetre, 1, 12, "%.1f mm",
                "Width of the rim outside of the tear.");
+  if (tear.kind == kBucketHandle)
+    TearSlider(ui, state, "Displacement", tear.displacement, kMetrePerMillimetre, 0, 12, "%.1f mm",
+               "How far the handle lies from its place, towards the notch. From 0 on it is another "
+               "shape, whose tetrahedra are made anew.");
   if (!is_long && tear.kind != kRoot)
     TearSlider(ui, state, "Tear reach", tear.reach, kMetrePerMillimetre, 1, 15, "%.1f mm",
                "Reach from the free edge outwards.");

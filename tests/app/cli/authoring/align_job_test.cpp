@@ -7,6 +7,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/files/loaded_scene.h"
 #include "simulation/scene/files/scene_io.h"
+#include "simulation/scene/image_io.h"
 #include "tests/app/cli/job_inputs.h"
 #include "tests/support/run_program.h"
 #include "tests/support/shapes.h"
@@ -98,6 +99,22 @@ TEST_F(AlignJob, RefusesInOneSentenceAndWritesNoScene) {
   WriteAtomically(At("pairs.json"), "{");
   EXPECT_EQ(Align().exit_code, 1);
   EXPECT_FALSE(std::filesystem::exists(At("A")));
+}
+
+TEST_F(AlignJob, ALandmarkOnAHoleIsRefusedByItsNumber) {
+  LoadedScene scene = LoadScene(At("S"));
+  DepthMap depth = *scene.depth;
+  for (int v = 100; v < 140; ++v)
+    for (int u = 130; u < 170; ++u) depth.at(u, v) = std::nanf("");
+  WriteDepthMap(std::filesystem::path(At("S")) / scene.scene.backdrop.depth, depth);
+  nlohmann::json json{{"schema", "arthroscene.pairs/1"}};
+  for (const glm::ivec2 pixel : {glm::ivec2(260, 110), glm::ivec2(150, 120)})
+    json["pairs"].push_back({{"model", {0, 0, 0}}, {"panorama", {{"pixel", {pixel.x, pixel.y}}}}});
+  WriteAtomically(At("pairs.json"), json.dump());
+  const ProgramResult run = Align();
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("pairs[1]: nothing was imaged there"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("choose another place"), std::string::npos) << run.err;
 }
 
 TEST_F(AlignJob, LaysTheSurfaceOntoTheRelief) {

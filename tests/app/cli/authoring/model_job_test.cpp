@@ -55,6 +55,19 @@ TEST_F(ModelJob, AddsATissueWithTetrahedraHoldsAndCutsToAScene) {
   EXPECT_GT(tissue.fixed.size(), 10u);
 }
 
+// Its tetrahedra are those of the displaced shape, and no cut is left to be made.
+TEST_F(ModelJob, ADisplacedBucketHandleIsAShapeOfItsOwn) {
+  const ProgramResult run =
+      RunProgram(Whole("model medial-meniscus --tear bucket-handle --tear-displacement-mm 6 -o "
+                       "@m.ply --scene @S --save-scene @T.arthro"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_GT(ReadSurface(At("m.ply"), 1.0).triangles.size(), 1000u);
+  const LoadedScene after = LoadScene(At("T.arthro"));
+  const Tissue& tissue = after.scene.tissues.back();
+  EXPECT_FALSE(tissue.mesh.empty());
+  EXPECT_TRUE(tissue.cuts.empty());
+}
+
 TEST_F(ModelJob, RefusesWhatDoesNotFitInOneSentence) {
   const std::pair<const char*, const char*> kCases[] = {
       {"model loose-body", "nothing would be written"},
@@ -64,6 +77,12 @@ TEST_F(ModelJob, RefusesWhatDoesNotFitInOneSentence) {
       {"model medial-meniscus --tear radial --tear-reach-mm 15 --tear-position 0.5 -o @m.ply",
        "smaller reach"},
       {"model medial-meniscus --tear-reach-mm 5 -o @m.ply", "name its kind with --tear"},
+      {"model medial-meniscus --tear radial --tear-displacement-mm 5 -o @m.ply",
+       "leave out --tear-displacement-mm"},
+      {"model medial-meniscus --tear bucket-handle --tear-displacement-mm 12 --tear-length-mm 70 "
+       "-o "
+       "@m.ply",
+       "does not fit"},
       {"model loose-body --scene @S -o @m.ply", "give both"},
       {"model loose-body -o @new.vtu", "use .ply, .obj, .stl or .vtp"}};
   for (const auto& [arguments, words] : kCases) {
@@ -72,6 +91,9 @@ TEST_F(ModelJob, RefusesWhatDoesNotFitInOneSentence) {
     EXPECT_SAYS(run.err, words);
     EXPECT_FALSE(std::filesystem::exists(At("m.ply")));
   }
+  const ProgramResult unknown = RunProgram(Whole("model medial-meniscus --tear parrot -o @m.ply"));
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_SAYS(unknown.err, "bucket-handle") << "it names the kinds that there are";
 }
 
 }  // namespace

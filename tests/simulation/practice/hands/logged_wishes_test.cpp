@@ -152,6 +152,49 @@ TEST_F(LoggedWishes, MountFollows) {
   EXPECT_NEAR(glm::distance(last.instrument.tip_in_portal, tip), 0, 1e-9);
 }
 
+// A rig whose punch is 12 mm longer than its rod: with the hand held still, the tip lies deeper
+// while the punch is held, its force is that of the deeper tip, and the replay has both.
+TEST_F(LoggedWishes, TipOffsetOfTheInstrumentFollows) {
+  constexpr double kLonger = 0.012;  // m
+  const auto press_with = [&](double beyond) {
+    HandsChoice choice;
+    choice.log = folder / ("tips-" + std::to_string(beyond) + ".log");
+    RigRole& role = choice.rig.emplace().instrument.emplace();
+    role.mount = loaded.scene.rig.instrument;
+    role.tip_offsets.beyond_rod[1] = beyond;
+    // Recorded hands on the mounts of the rig: a hand that holds still.
+    const RodPose at{0, 0, 0, 0.0275 - kLonger};
+    for (const double t : {0.0, 10.0})
+      choice.trace.push_back(
+          {DeviceRole::kInstrument,
+           {t, HipFromRodPose(at, role.mount), HandleFromRodPose(at, role.mount), 0, true}});
+    Hands own(choice);
+    Practice still = MakePractice(loaded, {}, TissuePace::kInline);
+    const auto frames = [&](int count) {
+      for (int i = 0; i < count; ++i) still.Advance(kFrame, &own);
+    };
+    frames(60);
+    EXPECT_NEAR(still.snapshot().instrument.tip_in_portal.z, 0.0275 - kLonger, 1e-9);
+    still.SetInstrument(ToolKind::kPunch);
+    frames(60);
+    return std::pair{still.snapshot().instrument.pose.depth,
+                     glm::length(still.snapshot().instrument.tip_force)};
+  };
+  const auto [depth, force] = press_with(kLonger);
+  EXPECT_NEAR(depth, 0.0275, 1e-9);
+  EXPECT_GT(force, 0.05) << "it presses on the body, 26 mm from the portal";
+  const auto [plain_depth, plain_force] = press_with(0);
+  EXPECT_NEAR(plain_depth, 0.0275 - kLonger, 1e-9);
+  EXPECT_EQ(plain_force, 0);
+
+  Recording recording =
+      RecordingOf(ReadDeviceLog(folder / ("tips-" + std::to_string(kLonger) + ".log")));
+  Snapshot last;
+  Replay(loaded, recording, {}, {}, nullptr, {},
+         [&](double, const Snapshot& snapshot, const WorldPicture*) { last = snapshot; });
+  EXPECT_NEAR(last.instrument.pose.depth, depth, 1e-9);
+}
+
 TEST_F(LoggedWishes, OptionsFollowAndThoseOfTheCallerTakePrecedence) {
   SessionOptions soft;
   soft.contact.stiffness = 150;
