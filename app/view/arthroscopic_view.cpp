@@ -92,7 +92,7 @@ struct ArthroscopicView::Parts {
     if (!is_timed) return;
     glFinish();
     const auto now = std::chrono::steady_clock::now();
-    cost.*stage = std::chrono::duration<double>(now - begin).count();
+    cost.*stage += std::chrono::duration<double>(now - begin).count();
     begin = now;
   }
   void TakeTool(simulation::ToolKind kind);
@@ -343,17 +343,28 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   p.backdrop->EndContact();
   p.EndStage(&PictureCost::scene, begin);
   // An error of the depth map that is as high as the occlusion reaches would be drawn as shade.
-  if (p.has_camera && picture.features >= CameraFeatures::kOcclusion &&
-      p.backdrop->least_side() < kOcclusionReach)
-    p.occlusion_pass.Draw(p.window, picture, p.rays);
-  p.EndStage(&PictureCost::occlusion, begin);
+  const bool is_occluded = p.has_camera && picture.features >= CameraFeatures::kOcclusion &&
+                           p.backdrop->least_side() < kOcclusionReach;
   p.is_disturbed = picture.disturbances.is_any() && !picture.plain;
-  if (p.is_disturbed) p.lens_pass.Draw(p.window, picture, frame.light_reach, p.rays);
+  if (is_occluded) p.occlusion_pass.Draw(p.window, picture, p.rays);
+  // Disturbances lie over what is occluded. Otherwise the camera multiplies, which saves a pass.
+  if (is_occluded && p.is_disturbed) p.occlusion_pass.Darken(p.window, p.rays);
+  vtkTextureObject* occlusion =
+      is_occluded && !p.is_disturbed ? &p.occlusion_pass.light() : nullptr;
+  p.EndStage(&PictureCost::occlusion, begin);
+  // Bits that drift in the fluid do not change the exposure.
+  if (p.has_camera)
+    p.camera_pass.Meter(p.window, picture, frame.shade,
+                        *p.drawn().GetColorAttachmentAsTextureObject(0), occlusion);
+  p.EndStage(&PictureCost::camera, begin);
+  if (p.is_disturbed)
+    p.lens_pass.Draw(p.window, picture, frame.light_reach, p.rays);
+  else if (!picture.plain)
+    p.lens_pass.DrawFlecks(p.window, picture, frame.light_reach, p.rays);
   p.EndStage(&PictureCost::disturbances, begin);
   if (p.has_camera)
-    p.camera_pass.Draw(p.window, picture, frame.shade,
-                       *p.drawn().GetColorAttachmentAsTextureObject(0),
-                       *p.finished().GetColorAttachmentAsTextureObject(0), size);
+    p.camera_pass.Draw(p.window, picture, *p.finished().GetColorAttachmentAsTextureObject(0),
+                       occlusion, size);
   p.EndStage(&PictureCost::camera, begin);
 }
 

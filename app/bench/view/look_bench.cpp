@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app/bench/machine_words.h"
+#include "app/platform/resource_folder.h"
 #include "app/view/still_picture.h"
 #include "authoring/footage/find_circle.h"
 #include "authoring/footage/footage.h"
@@ -16,6 +17,7 @@
 #include "simulation/core/units.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scope/window_lens.h"
+#include "simulation/tissue/body/tissue_preset.h"
 
 namespace arthro::app {
 namespace {
@@ -48,7 +50,11 @@ PictureStatistics MeasureWindow(const ColourImage& picture) {
 
 LookRow MeasureScene(const LoadedScene& loaded, LookBench& bench, const Progress& progress) {
   LookRow row{"scene", {}, {}};
-  StillPictures pictures(loaded);
+  // Drawn like the job `view` does it.
+  StillPictures pictures(
+      loaded,
+      simulation::LooksOf(loaded.scene.tissues,
+                          simulation::ReadTissuePresets(ResourceFolder() / "presets" / "tissues")));
   bench.drawn_by = pictures.context().description();
   bench.poses = LookPoses(loaded);
   const ScopeSpec& scope = loaded.scene.scope;
@@ -60,6 +66,7 @@ LookRow MeasureScene(const LoadedScene& loaded, LookBench& bench, const Progress
     picture.lens = optics.lens;
     picture.camera = optics.camera;
     picture.relief = kUsualRelief;
+    picture.flecks = FlecksIn(loaded.scene.backdrop);
     row.pictures.push_back(MeasureWindow(pictures.Draw(picture, kStatisticsSize)));
   }
   row.mean = MeanOf(row.pictures);

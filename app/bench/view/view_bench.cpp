@@ -39,23 +39,22 @@ nlohmann::json JsonOf(std::optional<double> value) {
 std::string TableOf(const ViewBench& bench) {
   std::string table = fmt::format(
       "# view: speed against error | {} | drawn by {} | {} frames a row\n"
-      "{:>5}{:>6} {:<46}{:>8}{:>8} |{:>8}{:>8} |{:>9}{:>9}{:>10} |{:>8}{:>8} |{:>7}\n"
-      "{:>5}{:>6} {:<46}{:>8}{:>8} |{:>8}{:>8} |{:>9}{:>9}{:>10} |{:>8}{:>8} |{:>7}\n",
+      "{:>5}{:>6} {:<46}{:>8}{:>8} |{:>8}{:>8} |{:>9}{:>9}{:>10} |{:>8}{:>8}\n"
+      "{:>5}{:>6} {:<46}{:>8}{:>8} |{:>8}{:>8} |{:>9}{:>9}{:>10} |{:>8}{:>8}\n",
       MachineWords(), bench.drawn_by, bench.options.timed_frames,  //
       "size", "pano", "picture", "wall ms", "", "cpu ms", "", "ends", "others", "colour", "lines",
-      "px", "still",  //
-      "px", "px", "", "median", "p99", "median", "p99", "off %", "rms mm", "off %", "rms", "max",
-      "rms");
+      "px",  //
+      "px", "px", "", "median", "p99", "median", "p99", "off %", "rms mm", "off %", "rms", "max");
   for (const ViewBenchRow& row : bench.rows) {
     const FrameTimes& t = row.times;
-    table += fmt::format(
-        "{:>5}{:>6} {:<46}{:>8.1f}{:>8.1f} |{:>8.1f}{:>8.1f} |{}{}{} |{}{} |{}\n", row.size,
-        row.panorama, row.words, kMilli * t.wall, kMilli * t.wall_p99, kMilli * t.cpu,
-        kMilli * t.cpu_p99, Column(PartOf(row.traced, &TracedAgreement::elsewhere, 100), 9, 2),
-        Column(PartOf(row.traced, &TracedAgreement::rms, MmFromMetres(1)), 9, 4),
-        Column(PartOf(row.traced, &TracedAgreement::off_colour, 100), 10, 2),
-        Column(PartOf(row.grid, &GridAgreement::rms_px), 8, 3),
-        Column(PartOf(row.grid, &GridAgreement::max_px), 8, 3), Column(row.off_still, 7, 2));
+    table += fmt::format("{:>5}{:>6} {:<46}{:>8.1f}{:>8.1f} |{:>8.1f}{:>8.1f} |{}{}{} |{}{}\n",
+                         row.size, row.panorama, row.words, kMilli * t.wall, kMilli * t.wall_p99,
+                         kMilli * t.cpu, kMilli * t.cpu_p99,
+                         Column(PartOf(row.traced, &TracedAgreement::elsewhere, 100), 9, 2),
+                         Column(PartOf(row.traced, &TracedAgreement::rms, MmFromMetres(1)), 9, 4),
+                         Column(PartOf(row.traced, &TracedAgreement::off_colour, 100), 10, 2),
+                         Column(PartOf(row.grid, &GridAgreement::rms_px), 8, 3),
+                         Column(PartOf(row.grid, &GridAgreement::max_px), 8, 3));
   }
   table += fmt::format(
       "ends off: share of {} random pixels whose ray ends more than {:g} mm from where the ray "
@@ -63,12 +62,10 @@ std::string TableOf(const ViewBench& bench) {
       "a picture has its footage's own colours; lines: of a grid, against the closed form.\n"
       "The tracer's outlines are laid through the depth map's stairs as the picture's are; by the "
       "map's stairs: against it as it is.\n"
-      "still rms: difference from the same scene at rest, with four rays per pixel, levels of "
-      "255.\n"
       "wall: what a user waits; cpu: of all threads. p99 of fewer than 100 frames is the "
       "slowest.\n",
       bench.options.pixels, MmFromMetres(kSameDistance), kSameColour);
-  return table;
+  return table + "\n" + TableOf(bench.costs);
 }
 
 nlohmann::json JsonOf(const ViewBench& bench) {
@@ -93,13 +90,13 @@ nlohmann::json JsonOf(const ViewBench& bench) {
                     {"others_rms", JsonOf(PartOf(row.traced, &TracedAgreement::rms))},
                     {"colour_off", JsonOf(PartOf(row.traced, &TracedAgreement::off_colour))},
                     {"lines_rms_px", JsonOf(PartOf(row.grid, &GridAgreement::rms_px))},
-                    {"lines_max_px", JsonOf(PartOf(row.grid, &GridAgreement::max_px))},
-                    {"off_still", JsonOf(row.off_still)}});
+                    {"lines_max_px", JsonOf(PartOf(row.grid, &GridAgreement::max_px))}});
   return {{"schema", "arthroscene.bench.view/1"},
           {"machine", MachineWords()},
           {"drawn_by", bench.drawn_by},
           {"options", JsonFromOptions(bench.options)},
-          {"rows", rows}};
+          {"rows", rows},
+          {"costs", JsonOf(bench.costs)}};
 }
 
 std::string PlotOf(const ViewBench& bench) {

@@ -11,6 +11,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "app/bench/view/frame_cost.h"
 #include "app/bench/view/traced_agreement.h"
 #include "simulation/core/options.h"
 #include "simulation/core/progress.h"
@@ -37,11 +38,6 @@ struct ViewBenchOptions {
   }
 };
 
-struct FrameTimes {
-  double wall = 0, wall_p99 = 0;  // s per frame: median and 99th percentile
-  double cpu = 0, cpu_p99 = 0;
-};
-
 struct ViewBenchRow {
   std::string part;   // "relief", "stairs", "samples" or "scene"
   std::string words;  // "64 steps, cells of 8"
@@ -52,14 +48,13 @@ struct ViewBenchRow {
   FrameTimes times;
   std::optional<TracedAgreement> traced;  // parts "relief" and "scene"; no colours for a lit scene
   std::optional<test::GridAgreement> grid;  // part "samples"
-  // Root mean square difference from the same scene at rest, of 255, for a picture with a camera.
-  std::optional<double> off_still = {};
 };
 
 struct ViewBench {
   ViewBenchOptions options;
   std::string drawn_by;  // the renderer
   std::vector<ViewBenchRow> rows;
+  std::vector<FrameCostRow> costs;  // each feature of a moving picture, at both sizes
 };
 
 // Throws Error(kDisplay) where nothing can draw.

@@ -1,19 +1,14 @@
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <span>
 
 #include <fmt/format.h>
 
-#include "app/bench/quantile.h"
 #include "app/bench/view/view_bench.h"
 #include "app/view/backdrop/relief_outlines.h"
-#include "app/view/exposure/picture_statistics.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/instruments/tool_mesh.h"
 #include "app/view/offscreen_context.h"
-#include "simulation/core/process_cost.h"
 #include "tests/support/view/view_cases.h"
 
 namespace arthro::app {
@@ -24,7 +19,8 @@ using namespace test;
 constexpr std::array kSearches = {ReliefSearch{0, 1},  ReliefSearch{64, 16}, kUsualRelief,
                                   ReliefSearch{64, 4}, ReliefSearch{64, 1},  ReliefSearch{256, 1}};
 constexpr std::array kSamples = {1, 2, 4, 8};
-constexpr int kWarmUp = 5;  // frames, in which drivers compile and upload
+constexpr double kFewer = 0.2;  // share of the triangles of the finer tissue, for most rows
+constexpr int kWarmUp = 5;      // frames, in which drivers compile and upload
 
 // Content of a picture beside the backdrop. `fineness` is the share of the options' triangles.
 struct SceneKind {
@@ -33,33 +29,20 @@ struct SceneKind {
   double relight = 0;
   bool is_disturbed = false;
   simulation::TissueStructure structure = simulation::TissueStructure::kPlain;
-  bool shows_camera = false;  // rows of kCamera follow
 };
 constexpr std::array kScenes = {SceneKind{"two instruments"},
-                                SceneKind{"two instruments, {} triangles", 0.2},
+                                SceneKind{"two instruments, {} triangles", kFewer},
                                 SceneKind{"two instruments, {} triangles", 1},
-                                SceneKind{"two instruments, {} triangles, lamp", 0.2, 1},
-                                SceneKind{"the same, haze and bubbles", 0.2, 1, true},
-                                SceneKind{"{} triangles, lamp, as cartilage", 0.2, 1, false,
+                                SceneKind{"two instruments, {} triangles, lamp", kFewer, 1},
+                                SceneKind{"the same, haze and bubbles", kFewer, 1, true},
+                                SceneKind{"{} triangles, lamp, as cartilage", kFewer, 1, false,
                                           simulation::TissueStructure::kHyaline},
-                                SceneKind{"{} triangles, lamp, as a meniscus", 0.2, 1, false,
-                                          simulation::TissueStructure::kFibres, true}};
-
-// Features of the camera, each with those before it.
-struct CameraRow {
-  const char* words;
-  CameraFeatures features;
-};
-constexpr std::array kCamera = {CameraRow{"the same, camera: exposure", CameraFeatures::kExposure},
-                                CameraRow{"the same and grain", CameraFeatures::kGrain},
-                                CameraRow{"the same and sharpness", CameraFeatures::kSharpness},
-                                CameraRow{"the same and fringe", CameraFeatures::kFringe},
-                                CameraRow{"the same and smooth edges", CameraFeatures::kEdges},
-                                CameraRow{"the same and occlusion", CameraFeatures::kOcclusion}};
+                                SceneKind{"{} triangles, lamp, as a meniscus", kFewer, 1, false,
+                                          simulation::TissueStructure::kFibres}};
 
 // Number of rows, for the progress.
-constexpr double kRows =
-    3 * kSearches.size() + 2 * kSamples.size() + 2 * (kScenes.size() + kCamera.size());
+constexpr double kRows = 3 * kSearches.size() + 2 * kSamples.size() + 2 * kScenes.size();
+constexpr double kShareOfRows = 0.7;  // share of the time; the cost of the features follows
 
 // No error, rather than an error of 0, where there was nothing to compare.
 std::optional<TracedAgreement> Held(const TracedAgreement& agreement) {
@@ -91,6 +74,14 @@ class ViewBenchRun {
     MeasureRelief(options_.panorama / 4, options_.size / 2);
     for (const int size : {options_.size / 2, options_.size}) MeasureSamples(size);
     for (const int size : {options_.size / 2, options_.size}) MeasureScenes(size);
+    const Progress rest{[this](std::string_view stage, double done) {
+                          progress_.Step(stage, kShareOfRows + (1 - kShareOfRows) * done);
+                        },
+                        progress_.stop};
+    bench_.costs = MeasureFrameCosts(
+        {options_.timed_frames, options_.panorama,
+         static_cast<int>(std::lround(kFewer * options_.triangles)), options_.pixels},
+        {options_.size / 2, options_.size}, rest);
     return std::move(bench_);
   }
 
@@ -100,10 +91,6 @@ class ViewBenchRun {
   void MeasureScenes(int size);
   template <class F>
   FrameTimes TimeFrames(const std::string& words, F&& frame);
-  // Times frames of several kinds in turns, so that a change of the machine's speed falls on all.
-  template <class F>
-  std::vector<FrameTimes> TimeInTurns(const std::string& words, std::size_t kinds, F&& frame);
-  double ErrorAgainstStill(const Picture& picture, int size);
 
   ViewBenchOptions options_;
   const Progress& progress_;
@@ -113,58 +100,16 @@ class ViewBenchRun {
 };
 
 template <class F>
-std::vector<FrameTimes> ViewBenchRun::TimeInTurns(const std::string& words, std::size_t kinds,
-                                                  F&& frame) {
-  using Clock = std::chrono::steady_clock;
-  const int warm_up = std::min(kWarmUp, options_.timed_frames),
-            all = warm_up + options_.timed_frames;
-  std::vector<std::vector<double>> wall(kinds), cpu(kinds);
-  for (int i = 0; i < all; ++i) {
-    progress_.Step(
-        words,
-        (static_cast<double>(bench_.rows.size()) + static_cast<double>(kinds) * i / all) / kRows);
-    for (std::size_t kind = 0; kind < kinds; ++kind) {
-      const Clock::time_point start = Clock::now();
-      const double cpu_start = ProcessCpuMs();
-      frame(kind);
-      view_.Finish();
-      if (i < warm_up) continue;
-      cpu[kind].push_back(1e-3 * (ProcessCpuMs() - cpu_start));
-      wall[kind].push_back(std::chrono::duration<double>(Clock::now() - start).count());
-    }
-  }
-  std::vector<FrameTimes> times;
-  for (std::size_t kind = 0; kind < kinds; ++kind)
-    times.push_back({Quantile(wall[kind], 0.5), Quantile(wall[kind], 0.99),
-                     Quantile(cpu[kind], 0.5), Quantile(cpu[kind], 0.99)});
-  return times;
-}
-
-template <class F>
 FrameTimes ViewBenchRun::TimeFrames(const std::string& words, F&& frame) {
-  return TimeInTurns(words, 1, [&](std::size_t) { frame(); }).front();
-}
-
-// Root mean square difference of the green channel from the picture of a scope at rest, which has
-// four rays and eight samples per pixel, in the inner part of the window. Grain is left out.
-double ViewBenchRun::ErrorAgainstStill(const Picture& picture, int size) {
-  Picture live = picture;
-  live.camera->grain = 0;
-  Picture still = live;
-  still.rays = 2;
-  still.samples = kSamples.back();
-  view_.Render(still, size);
-  const ColourImage wanted = view_.ReadPixels();
-  view_.Render(live, size);
-  const ColourImage drawn = view_.ReadPixels();
-  const PictureMask mask =
-      DiscMask(size, size, 0.5 * (size - 1), 0.5 * (size - 1), 0.5 * kMeasuredRadius * size);
-  double squares = 0;
-  int count = 0;
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x)
-      if (mask.at(x, y)) squares += std::pow(drawn.at(x, y)[1] - wanted.at(x, y)[1], 2), ++count;
-  return std::sqrt(squares / std::max(count, 1));
+  return DrawInTurns(
+             1, options_.timed_frames, std::min(kWarmUp, options_.timed_frames),
+             [&](std::size_t) { frame(); }, [&](std::size_t) { view_.Finish(); },
+             [&](double share) {
+               progress_.Step(
+                   words, kShareOfRows * (static_cast<double>(bench_.rows.size()) + share) / kRows);
+             })
+      .front()
+      .Times();
 }
 
 void ViewBenchRun::MeasureRelief(int width, int size) {
@@ -265,50 +210,34 @@ void ViewBenchRun::MeasureScenes(int size) {
     picture.samples = 2;
     picture.instrument = held;
     if (kind.is_disturbed) picture.disturbances.haze = picture.disturbances.bubbles = 0.4;
-    std::vector<Picture> pictures{picture};
-    std::vector<std::string> words{fmt::format(fmt::runtime(kind.words), ring.triangles.size())};
-    for (const CameraRow& row :
-         kind.shows_camera ? std::span(kCamera) : std::span<const CameraRow>()) {
-      pictures.push_back(picture);
-      pictures.back().camera = LensCamera();
-      pictures.back().features = row.features;
-      words.push_back(row.words);
-    }
     SurfaceMesh now = ring;
     int frame = 0;
-    const std::vector<FrameTimes> times =
-        TimeInTurns(words[0], pictures.size(), [&](std::size_t i) {
-          ++frame;
-          for (std::size_t v = 0; v < now.vertices.size(); ++v)
-            now.vertices[v].z =
-                ring.vertices[v].z + 1e-4 * std::sin(0.3 * frame + 900 * now.vertices[v].x);
-          if (!now.vertices.empty()) view_.SetTissueShape(1, now.vertices);
-          pictures[i].view.tip.x += 1e-7;
-          pictures[i].disturbances.time += 0.03;
-          view_.Render(pictures[i], size);
-        });
+    const std::string words = fmt::format(fmt::runtime(kind.words), ring.triangles.size());
+    const FrameTimes times = TimeFrames(words, [&] {
+      ++frame;
+      for (std::size_t v = 0; v < now.vertices.size(); ++v)
+        now.vertices[v].z =
+            ring.vertices[v].z + 1e-4 * std::sin(0.3 * frame + 900 * now.vertices[v].x);
+      if (!now.vertices.empty()) view_.SetTissueShape(1, now.vertices);
+      picture.view.tip.x += 1e-7;
+      picture.disturbances.time += 0.03;
+      view_.Render(picture, size);
+    });
     // Compares the last frame.
     const SurfaceMesh lies = Moved(lying, tissues[0].pose), moves = Moved(now, tissues[1].pose);
     const ReferenceMesh meshes[] = {{&probe}, {&lies}, {&moves}};
     const std::vector<TracedPixel> traced =
-        TracePixels(smooth, pictures.back(), size, options_.pixels, meshes);
-    const std::optional<TracedAgreement> agreement =
-        Held(CompareWithTraced(traced, view_.ReadDistances(), size));
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-      std::optional<double> off_still;
-      if (pictures[i].camera) off_still = ErrorAgainstStill(pictures[i], size);
-      bench_.rows.push_back({"scene",
-                             words[i],
-                             size,
-                             options_.panorama,
-                             picture.relief,
-                             picture.samples,
-                             static_cast<int>(ring.triangles.size()),
-                             times[i],
-                             agreement,
-                             {},
-                             off_still});
-    }
+        TracePixels(smooth, picture, size, options_.pixels, meshes);
+    bench_.rows.push_back({"scene",
+                           words,
+                           size,
+                           options_.panorama,
+                           picture.relief,
+                           picture.samples,
+                           static_cast<int>(ring.triangles.size()),
+                           times,
+                           Held(CompareWithTraced(traced, view_.ReadDistances(), size)),
+                           {}});
   }
 }
 

@@ -120,9 +120,10 @@ void Run(const DemoJob& job) {
     pictures.eye().Leave();
     const std::string name = fmt::format("picture_{:02}.png", i + 1);
     // Upright, as surgeons hold it.
-    const Picture picture =
-        RecordedPicture(moment.snapshot, pictures.eye().MoveTo(moment.snapshot.scope), optics,
-                        {.is_upright = true});
+    Picture picture = RecordedPicture(moment.snapshot, pictures.eye().MoveTo(moment.snapshot.scope),
+                                      optics, {.is_upright = true});
+    picture.disturbances.time = moment.t;
+    picture.flecks = FlecksIn(loaded.scene.backdrop);
     WriteColourImage(folder.beside() / name, pictures.Draw(picture, job.size));
     const simulation::ToolState& instrument = moment.snapshot.instrument;
     json["pictures"].push_back({{"file", name},

@@ -18,6 +18,9 @@ std::vector<simulation::TissueLook> ShippedLooks(const Scene& scene) {
     const std::vector<simulation::TissuePreset> presets = ShippedTissuePresets();
     for (const Tissue& tissue : scene.tissues) {
       const simulation::TissuePreset* found = FindTissuePreset(presets, tissue.material);
+      if (found == nullptr)
+        fmt::print(stderr, "note: there is no preset {}; {} is drawn without structure\n",
+                   PrintableLine(tissue.material), PrintableLine(tissue.name));
       if (found != nullptr && !found->look)
         fmt::print(stderr, "note: the preset {} has no \"look\"; {} is drawn without structure\n",
                    found->name, PrintableLine(tissue.name));

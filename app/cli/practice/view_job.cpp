@@ -61,6 +61,7 @@ void RunViewJob(const ViewArguments& arguments) {
   if (!arguments.no_camera) picture.camera = optics.camera;
   picture.plain = arguments.plain;
   picture.disturbances = disturbances;
+  picture.flecks = FlecksIn(loaded.scene.backdrop);
   picture.relief = arguments.plain || arguments.relief_steps ? ReliefSearch{} : kUsualRelief;
   if (arguments.relief_steps) picture.relief.steps = *arguments.relief_steps;
   if (arguments.relief_cell) picture.relief.cell = *arguments.relief_cell;

@@ -54,7 +54,8 @@ void UseBrush(EditorState& state, const std::optional<Overview::TissuePlace>& pl
 bool Same(const Picture& a, const Picture& b) {
   return a.view.tip == b.view.tip && a.view.view == b.view.view && a.view.up == b.view.up &&
          a.field_of_view == b.field_of_view && a.lens == b.lens && a.camera == b.camera &&
-         a.notch == b.notch && a.instrument == b.instrument && a.disturbances == b.disturbances;
+         a.notch == b.notch && a.instrument == b.instrument && a.disturbances == b.disturbances &&
+         a.flecks == b.flecks;
 }
 
 // Picture of the tools that the author holds while no session runs.
@@ -106,6 +107,7 @@ Picture ShownPicture(const EditorState& state, const simulation::ScopeOptics& op
                         state.steps.practice->head);
     picture.instrument->turn = practice->blade_turn();
     picture.disturbances = state.steps.practice->disturbing.now;
+    picture.flecks = FlecksIn(state.document().scene.backdrop);
     // The time advances only for disturbances that move, so that a still picture is not redrawn.
     if (picture.disturbances.is_moving()) picture.disturbances.time = snapshot.t;
   } else {
@@ -264,7 +266,8 @@ bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
   if (state.practice && picture.instrument)
     picture.instrument = live_tissues_.Settled(*picture.instrument);
   const bool is_faded = FadeOf(state) > 0 && outlined_ < 0;
-  // The fluid flows while something moves: villi sway then, and a picture at rest stays as it is.
+  // The fluid flows while something moves: villi sway and flecks drift then, and a picture at rest
+  // stays as it is.
   const bool flows = state.practice && !picture.disturbances.is_moving();
   if (flows) picture.disturbances.time = flow_.time;
   const bool has_changed =

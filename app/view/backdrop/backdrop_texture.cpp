@@ -14,7 +14,7 @@ namespace {
 // Width of the soft border, as a share of the panorama's longer edge.
 constexpr double kSoftEnd = 1.0 / 40.0;
 // Longer edge of the mask, px: fine enough for a soft border of 13 px.
-constexpr int kMaskSide = 512;
+constexpr int kMaskSide = 512, kLeastMaskSide = 40;
 
 // Blurs one line in place by a running sum. Beyond the ends it is periodic or 0.
 void BlurLine(float* line, int count, int stride, int radius, bool periodic,
@@ -63,7 +63,9 @@ struct ImagedMask {
 };
 ImagedMask MakeImagedMask(int width, int height, const DepthMap& depth, bool whole_turn) {
   ImagedMask mask;
-  const double scale = std::min(1.0, double(kMaskSide) / std::max(width, height));
+  // A tiny panorama has a finer mask than pixels, or its soft end would be all of it.
+  const double longer = std::max(width, height);
+  const double scale = std::max(std::min(1.0, kMaskSide / longer), kLeastMaskSide / longer);
   mask.width = std::max(1, static_cast<int>(std::lround(width * scale)));
   mask.height = std::max(1, static_cast<int>(std::lround(height * scale)));
   std::vector<float> share(

@@ -87,10 +87,54 @@ DriftingBit OnTheLens(Random& own, double time) {
   return bit;
 }
 
+// A kind of bits that the inflow carries: number of the kind, lowest shape number (fibres have
+// those below kFibreShare), smallest radius and range of the radii, m, and how soft and opaque they
+// are.
+struct BitKind {
+  int number;
+  double least_shape;
+  double fibre, fibre_range, flake, flake_range;
+  double least_softness, opacity;
+};
+constexpr BitKind kFlakes{2, 0.0, 0.5e-3, 1.1e-3, 0.12e-3, 0.7e-3, 0.0, 1.0};
+// So small that light goes through them.
+constexpr BitKind kFlecks{3, 0.37, 0.2e-3, 0.4e-3, 0.05e-3, 0.12e-3, 0.6, 0.6};
+
+std::vector<DriftingBit> Drifting(const BitKind& kind, int count, const Disturbances& disturbances,
+                                  const simulation::ScopeView& view, double field_of_view,
+                                  const simulation::WindowLens& lens) {
+  std::vector<DriftingBit> bits;
+  const double t = disturbances.time;
+  for (int i = 0; i < count; ++i) {
+    Random own = NumbersOf(disturbances.seed, kind.number, i);
+    const glm::dvec3 start = kBox * SharesOfEach(own);
+    const glm::dvec3 way = SharesOfEach(own) - 0.5;
+    const double phase = 6.28 * Share(own), size = Share(own),
+                 shape = kind.least_shape + (1.0 - kind.least_shape) * Share(own);
+    // The inflow carries all bits, each with a small deviation and the oscillation of the eddies.
+    const glm::dvec3 drift = (glm::dvec3(0.9e-3, -0.25e-3, 0.5e-3) + 1.6e-3 * way) * t +
+                             0.7e-3 * std::sin(0.6 * t + phase) * glm::dvec3(way.y, way.z, way.x);
+    const bool is_fibre = shape < kFibreShare;
+    const double radius = is_fibre ? kind.fibre + kind.fibre_range * size
+                                   : kind.flake + kind.flake_range * size * size * size;
+    auto bit = Seen(start + drift, radius, view, field_of_view, lens);
+    if (!bit) continue;
+    bit->angle = phase + (0.5 * way.x + 0.1) * t;
+    bit->shape = shape;
+    bit->softness = std::max(bit->softness, kind.least_softness);
+    // Defocus spreads the light of a bit.
+    bit->opacity *= kind.opacity / (1.0 + 2.0 * bit->softness);
+    bits.push_back(*bit);
+  }
+  SortFarthestFirst(bits);
+  return bits;
+}
+
 }  // namespace
 
 int BubbleCount(double strength) { return static_cast<int>(std::ceil(strength * kMostBubbles)); }
 int FlakeCount(double strength) { return static_cast<int>(std::ceil(strength * kMostFlakes)); }
+int FleckCount(double share) { return FlakeCount(share); }
 
 std::vector<DriftingBit> Bubbles(const Disturbances& disturbances,
                                  const simulation::ScopeView& view, double field_of_view,
@@ -124,28 +168,14 @@ std::vector<DriftingBit> Bubbles(const Disturbances& disturbances,
 
 std::vector<DriftingBit> Flakes(const Disturbances& disturbances, const simulation::ScopeView& view,
                                 double field_of_view, const simulation::WindowLens& lens) {
-  std::vector<DriftingBit> bits;
-  const double t = disturbances.time;
-  for (int i = 0; i < FlakeCount(disturbances.debris); ++i) {
-    Random own = NumbersOf(disturbances.seed, 2, i);
-    const glm::dvec3 start = kBox * SharesOfEach(own);
-    const glm::dvec3 way = SharesOfEach(own) - 0.5;
-    const double phase = 6.28 * Share(own), size = Share(own), shape = Share(own);
-    // The inflow carries all flakes, each with a small deviation and the oscillation of the eddies.
-    const glm::dvec3 drift = (glm::dvec3(0.9e-3, -0.25e-3, 0.5e-3) + 1.6e-3 * way) * t +
-                             0.7e-3 * std::sin(0.6 * t + phase) * glm::dvec3(way.y, way.z, way.x);
-    const bool is_fibre = shape < kFibreShare;
-    const double radius = is_fibre ? 0.5e-3 + 1.1e-3 * size : 0.12e-3 + 0.7e-3 * size * size * size;
-    auto bit = Seen(start + drift, radius, view, field_of_view, lens);
-    if (!bit) continue;
-    bit->angle = phase + (0.5 * way.x + 0.1) * t;
-    bit->shape = shape;
-    // Defocus spreads the light of a bit.
-    bit->opacity *= 1.0 / (1.0 + 2.0 * bit->softness);
-    bits.push_back(*bit);
-  }
-  SortFarthestFirst(bits);
-  return bits;
+  return Drifting(kFlakes, FlakeCount(disturbances.debris), disturbances, view, field_of_view,
+                  lens);
+}
+
+std::vector<DriftingBit> Flecks(double share, const Disturbances& disturbances,
+                                const simulation::ScopeView& view, double field_of_view,
+                                const simulation::WindowLens& lens) {
+  return Drifting(kFlecks, FleckCount(share), disturbances, view, field_of_view, lens);
 }
 
 }  // namespace arthro::app

@@ -28,6 +28,7 @@ struct DriftingBit {
 // Number of bits for a strength, at least one for a strength above 0. Not all are in sight.
 int BubbleCount(double strength);
 int FlakeCount(double strength);
+int FleckCount(double share);
 
 // Bits in sight, the farthest first.
 std::vector<DriftingBit> Bubbles(const Disturbances& disturbances,
@@ -35,5 +36,10 @@ std::vector<DriftingBit> Bubbles(const Disturbances& disturbances,
                                  const simulation::WindowLens& lens = {});
 std::vector<DriftingBit> Flakes(const Disturbances& disturbances, const simulation::ScopeView& view,
                                 double field_of_view, const simulation::WindowLens& lens = {});
+// Flecks of debris in the fluid, by seed and time of the disturbances (picture.h). They are smaller
+// than loose tissue, and those near the lens are out of focus.
+std::vector<DriftingBit> Flecks(double share, const Disturbances& disturbances,
+                                const simulation::ScopeView& view, double field_of_view,
+                                const simulation::WindowLens& lens = {});
 
 }  // namespace arthro::app

@@ -67,6 +67,7 @@ void LensPass::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window) {
   spread_pass_.reset();
   for (RenderTarget* target : {&target_, &gathered_, &spread_})
     target->ReleaseGraphicsResources(window);
+  onto_->ReleaseGraphicsResources(window);
   murk_->ReleaseGraphicsResources(window);
 }
 
@@ -180,23 +181,47 @@ void LensPass::DrawBits(const Frame& frame, const std::vector<DriftingBit>& bits
   state->vtkglDisable(GL_BLEND);
 }
 
-void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, double light_reach,
-                    int size) {
+LensPass::Frame LensPass::FrameOf(vtkOpenGLRenderWindow* window, const Picture& picture,
+                                  double light_reach, int size) {
   vtkOpenGLFramebufferObject& drawn = *window->GetRenderFramebuffer();
   const Disturbances& d = picture.disturbances;
-  Frame frame{window,
-              drawn.GetColorAttachmentAsTextureObject(0),
-              drawn.GetDepthAttachmentAsTextureObject(),
-              d,
-              light_reach,
-              size / 2.0,
-              0.0,
-              0,
-              size};
-  frame.pixels_of_angle =
-      picture.lens.outward[0] * frame.radius / (2.0 * std::sin(picture.field_of_view / 4.0));
-  frame.variant = (d.haze > 0 ? kHaze : 0u) + (d.fog > 0 ? kFog : 0u) +
-                  (d.overexposure > 0 ? kOverexposed : 0u);
+  const double radius = size / 2.0;
+  return {window,
+          drawn.GetColorAttachmentAsTextureObject(0),
+          drawn.GetDepthAttachmentAsTextureObject(),
+          d,
+          light_reach,
+          radius,
+          picture.lens.outward[0] * radius / (2.0 * std::sin(picture.field_of_view / 4.0)),
+          (d.haze > 0 ? kHaze : 0u) + (d.fog > 0 ? kFog : 0u) +
+              (d.overexposure > 0 ? kOverexposed : 0u),
+          size};
+}
+
+void LensPass::DrawFlecks(vtkOpenGLRenderWindow* window, const Picture& picture, double light_reach,
+                          int size) {
+  const std::vector<DriftingBit> flecks = Flecks(picture.flecks, picture.disturbances, picture.view,
+                                                 picture.field_of_view, picture.lens);
+  if (flecks.empty()) return;
+  const Frame frame = FrameOf(window, picture, light_reach, size);
+  PassState state(window);
+  onto_->SetContext(window);
+  onto_->Bind();
+  // VTK skips a texture object that is attached already, although its OpenGL texture may be new.
+  onto_->RemoveColorAttachment(0);
+  onto_->AddColorAttachment(0, frame.colours);
+  onto_->ActivateDrawBuffer(0);
+  state->vtkglViewport(0, 0, size, size);
+  state->vtkglScissor(0, 0, size, size);
+  frame.depths->Activate();
+  DrawBits(frame, flecks, flake_passes_[frame.variant], "flake.glsl", false);
+  frame.depths->Deactivate();
+}
+
+void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, double light_reach,
+                    int size) {
+  const Disturbances& d = picture.disturbances;
+  const Frame frame = FrameOf(window, picture, light_reach, size);
   const bool is_blurred = d.near_blur > 0 || d.far_blur > 0 || d.fog > 0;
   const std::vector<DriftingBit> bubbles =
       Bubbles(d, picture.view, picture.field_of_view, picture.lens);
@@ -239,6 +264,8 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
     }
     target_.Bind(window);
     pass->Draw(size);
+    DrawBits(frame, Flecks(picture.flecks, d, picture.view, picture.field_of_view, picture.lens),
+             flake_passes_[frame.variant], "flake.glsl", false);
     DrawBits(frame, Flakes(d, picture.view, picture.field_of_view, picture.lens),
              flake_passes_[frame.variant], "flake.glsl", false);
     DrawBits(frame, bubbles, bubble_passes_[frame.variant], "bubble.glsl", true);

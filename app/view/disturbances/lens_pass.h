@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <vtkNew.h>
+#include <vtkOpenGLFramebufferObject.h>
 #include <vtkTextureObject.h>
 
 #include "app/view/drawing/picture.h"
@@ -27,11 +28,17 @@ class LensPass {
  public:
   // `drawn` holds the frame of `picture`, size x size; `light_reach` is that of the models, m.
   void Draw(vtkOpenGLRenderWindow* window, const Picture& picture, double light_reach, int size);
+  // Draws the flecks of the fluid into the frame itself, for a picture without disturbances. A copy
+  // of the frame would cost more than the flecks.
+  void DrawFlecks(vtkOpenGLRenderWindow* window, const Picture& picture, double light_reach,
+                  int size);
   vtkOpenGLFramebufferObject& result() { return *target_.framebuffer; }
   void ReleaseGraphicsResources(vtkOpenGLRenderWindow* window);
 
  private:
   struct Frame;
+  static Frame FrameOf(vtkOpenGLRenderWindow* window, const Picture& picture, double light_reach,
+                       int size);
   // One per variant of a shader, made when it is first needed.
   using Pass = std::optional<ShaderPass>;
   static vtkShaderProgram* Ready(Pass& pass, const Frame& frame,
@@ -44,6 +51,7 @@ class LensPass {
   void SetDisturbed(vtkShaderProgram& program, const Frame& frame) const;
 
   RenderTarget target_, gathered_, spread_;
+  vtkNew<vtkOpenGLFramebufferObject> onto_;  // the frame's colours, without its depths
   vtkNew<vtkTextureObject> murk_;
   int murk_seed_ = -1;
   double murk_time_ = -1;

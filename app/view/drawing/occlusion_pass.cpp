@@ -12,6 +12,12 @@
 #include "app/view/drawing/shader_text.h"
 
 namespace arthro::app {
+namespace {
+
+// A larger picture has no finer shade: its reach is a share of the window.
+constexpr int kMostSide = 340;  // px
+
+}  // namespace
 
 void OcclusionPass::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window) {
   for (std::optional<ShaderPass>* pass : {&occlusion_, &smooth_, &multiply_}) {
@@ -25,11 +31,10 @@ void OcclusionPass::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window) {
 void OcclusionPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, int size) {
   vtkOpenGLFramebufferObject& drawn = *window->GetRenderFramebuffer();
   vtkTextureObject& depths = *drawn.GetDepthAttachmentAsTextureObject();
-  const int half = std::max(size / 2, 1);
-  for (RenderTarget* target : {&light_, &mean_}) target->Resize(window, half, 0, 1);
+  const int side = std::clamp(size / 2, 1, kMostSide);
+  for (RenderTarget* target : {&light_, &mean_}) target->Resize(window, side, 0, 1);
   if (!occlusion_) occlusion_.emplace(ShaderText("occlusion.glsl"), ShaderPass::Shape::kRound);
   if (!smooth_) smooth_.emplace(ShaderText("occlusion_mean.glsl"), ShaderPass::Shape::kRound);
-  if (!multiply_) multiply_.emplace(ShaderText("multiply.glsl"), ShaderPass::Shape::kRound);
   PassState state(window);
   // Places around the round window, which the mean reads, take no light away.
   const vtkOpenGLState::ScopedglClearColor colour(window->GetState());
@@ -49,7 +54,7 @@ void OcclusionPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, 
       static_cast<float>(picture.lens.outward[0] / (4.0 * std::sin(picture.field_of_view / 4.0))));
   program->SetUniformf("given_texel", static_cast<float>(1.0 / size));
   clear(light_);
-  occlusion_->Draw(half);
+  occlusion_->Draw(side);
   depths.Deactivate();
 
   program = smooth_->Ready(window);
@@ -57,13 +62,18 @@ void OcclusionPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, 
   light_.texture->Activate();
   program->SetUniformi("light", light_.texture->GetTextureUnit());
   clear(mean_);
-  smooth_->Draw(half);
+  smooth_->Draw(side);
   light_.texture->Deactivate();
+}
 
-  program = multiply_->Ready(window);
+void OcclusionPass::Darken(vtkOpenGLRenderWindow* window, int size) {
+  if (!multiply_) multiply_.emplace(ShaderText("multiply.glsl"), ShaderPass::Shape::kRound);
+  PassState state(window);
+  vtkShaderProgram* program = multiply_->Ready(window);
   if (program == nullptr) return;
   mean_.texture->Activate();
-  program->SetUniformi("factor", mean_.texture->GetTextureUnit());
+  program->SetUniformi("occlusion", mean_.texture->GetTextureUnit());
+  vtkOpenGLFramebufferObject& drawn = *window->GetRenderFramebuffer();
   drawn.Bind(GL_DRAW_FRAMEBUFFER);
   drawn.ActivateDrawBuffer(0);
   state->vtkglViewport(0, 0, size, size);

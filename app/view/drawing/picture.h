@@ -8,6 +8,7 @@
 
 #include "app/view/drawing/disturbances.h"
 #include "simulation/scene/lens_camera.h"
+#include "simulation/scene/scene.h"
 #include "simulation/scope/arthroscope.h"
 #include "simulation/scope/window_lens.h"
 #include "simulation/tissue/contact/tool_shape.h"
@@ -47,6 +48,9 @@ struct Picture {
   std::optional<InstrumentView> instrument;
   bool plain = false;         // backdrop colours only: no light, softness, mark or models
   Disturbances disturbances;  // over all but a plain picture
+  // Share of the most flecks that drift in the fluid (FlecksIn), by the disturbances' seed and
+  // time. None in a plain picture.
+  double flecks = 0;
   // Camera behind the scope; none: colours as they are lit. Never over a plain picture.
   std::optional<LensCamera> camera;
   CameraFeatures features = CameraFeatures::kOcclusion;
@@ -56,5 +60,12 @@ struct Picture {
   // faster, for moving pictures; a fine pattern may then blur or shimmer.
   int samples = 8;
 };
+
+// Share of the most flecks that saline usually holds: a few are in sight. The disturbance `debris`
+// adds larger pieces.
+inline constexpr double kUsualFlecks = 0.25;
+inline double FlecksIn(const Backdrop& backdrop) {
+  return backdrop.medium == Medium::kSaline ? kUsualFlecks : 0.0;
+}
 
 }  // namespace arthro::app

@@ -33,28 +33,44 @@ bool Counts(const simulation::ScopeOptics& optics, const LensShade& shade, int c
 }  // namespace
 
 void CameraPass::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window) {
-  if (meter_pass_) meter_pass_->ReleaseGraphicsResources();
-  meter_pass_.reset();
-  for (Pass& pass : camera_passes_) {
-    if (pass) pass->ReleaseGraphicsResources();
-    pass.reset();
-  }
+  const auto release = [](auto& passes) {
+    for (Pass& pass : passes) {
+      if (pass) pass->ReleaseGraphicsResources();
+      pass.reset();
+    }
+  };
+  release(meter_passes_);
+  release(camera_passes_);
   marks_->ReleaseGraphicsResources(window);
   for (RenderTarget* target : {&target_, &metered_}) target->ReleaseGraphicsResources(window);
 }
 
 void CameraPass::Meter(vtkOpenGLRenderWindow* window, const Picture& picture,
-                       const LensShade& shade, vtkTextureObject& drawn) {
+                       const LensShade& shade, vtkTextureObject& undisturbed,
+                       vtkTextureObject* occlusion) {
   exposure_ = {};
+  PassState state(window);
+  undisturbed.SetMinificationFilter(vtkTextureObject::Linear);
+  undisturbed.SetMagnificationFilter(vtkTextureObject::Linear);
   metered_.Resize(window, kMeteredParts, 0, 1);
-  if (!meter_pass_) meter_pass_.emplace(ShaderText("meter.glsl"), ShaderPass::Shape::kWhole);
-  vtkShaderProgram* program = meter_pass_->Ready(window);
+  Pass& pass = meter_passes_[occlusion != nullptr ? 1 : 0];
+  if (!pass) {
+    const std::vector<std::string> defines(occlusion != nullptr ? 1 : 0, "OCCLUDED");
+    pass.emplace(ShaderText("meter.glsl", defines), ShaderPass::Shape::kWhole);
+  }
+  vtkShaderProgram* program = pass->Ready(window);
   if (program == nullptr) return;
-  program->SetUniformi("picture", drawn.GetTextureUnit());
+  undisturbed.Activate();
+  program->SetUniformi("picture", undisturbed.GetTextureUnit());
+  if (occlusion != nullptr) {
+    occlusion->Activate();
+    program->SetUniformi("occlusion", occlusion->GetTextureUnit());
+  }
   metered_.Bind(window);
-  meter_pass_->Draw(kMeteredParts);
+  pass->Draw(kMeteredParts);
+  if (occlusion != nullptr) occlusion->Deactivate();
+  undisturbed.Deactivate();
   texels_.resize(std::size_t{4} * kMeteredParts * kMeteredParts);
-  vtkOpenGLState* state = window->GetState();
   state->PushReadFramebufferBinding();
   metered_.framebuffer->Bind(GL_READ_FRAMEBUFFER);
   metered_.framebuffer->ActivateReadBuffer(0);
@@ -73,7 +89,8 @@ void CameraPass::Meter(vtkOpenGLRenderWindow* window, const Picture& picture,
 }
 
 void CameraPass::Expose(vtkOpenGLRenderWindow* window, const Picture& picture,
-                        vtkTextureObject& finished, int size, Edges edges) {
+                        vtkTextureObject& finished, vtkTextureObject* occlusion, int size,
+                        Edges edges) {
   const LensCamera& camera = *picture.camera;
   const auto shows = [&](CameraFeatures feature) { return picture.features >= feature; };
   std::vector<std::string> defines;
@@ -87,6 +104,7 @@ void CameraPass::Expose(vtkOpenGLRenderWindow* window, const Picture& picture,
          "DETAIL");
   define(shows(CameraFeatures::kFringe) && camera.fringe > 0, "FRINGE");
   define(picture.rays == 1, "SAME_SIZE");
+  define(occlusion != nullptr, "OCCLUDED");
   define(edges == Edges::kMarked, "MARKS");
   define(edges == Edges::kSmoothed, "EDGES");
   Pass& pass = camera_passes_[variant];
@@ -94,6 +112,7 @@ void CameraPass::Expose(vtkOpenGLRenderWindow* window, const Picture& picture,
   vtkShaderProgram* program = pass->Ready(window);
   if (program == nullptr) return;
   program->SetUniformi("picture", finished.GetTextureUnit());
+  if (occlusion != nullptr) program->SetUniformi("occlusion", occlusion->GetTextureUnit());
   program->SetUniformf("given_pixel", Float(1.0 / size));
   program->SetUniformf("given_gain", Float(exposure_.gain));
   program->SetUniformf("given_offset", Float(exposure_.offset));
@@ -115,18 +134,14 @@ void CameraPass::TakeMarks(vtkOpenGLRenderWindow* window) {
   target_.framebuffer->AddDepthAttachment(marks_);
 }
 
-void CameraPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, const LensShade& shade,
-                      vtkTextureObject& undisturbed, vtkTextureObject& finished, int size) {
+void CameraPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture,
+                      vtkTextureObject& finished, vtkTextureObject* occlusion, int size) {
   target_.Resize(window, size, 0, 1);
   PassState state(window);
-  for (vtkTextureObject* source : {&undisturbed, &finished}) {
-    source->SetMinificationFilter(vtkTextureObject::Linear);
-    source->SetMagnificationFilter(vtkTextureObject::Linear);
-  }
-  undisturbed.Activate();
-  Meter(window, picture, shade, undisturbed);
-  undisturbed.Deactivate();
+  finished.SetMinificationFilter(vtkTextureObject::Linear);
+  finished.SetMagnificationFilter(vtkTextureObject::Linear);
   finished.Activate();
+  if (occlusion != nullptr) occlusion->Activate();
   // Four rays per pixel need no other smoothing.
   if (picture.features >= CameraFeatures::kEdges && picture.rays == 1) {
     // A software rasteriser executes the smoothing for every pixel that it shades. The depth test
@@ -136,15 +151,16 @@ void CameraPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, con
     state->vtkglEnable(GL_DEPTH_TEST);
     state->vtkglDepthMask(GL_TRUE);
     state->vtkglDepthFunc(GL_ALWAYS);
-    Expose(window, picture, finished, size, Edges::kMarked);
+    Expose(window, picture, finished, occlusion, size, Edges::kMarked);
     state->vtkglDepthMask(GL_FALSE);
     state->vtkglDepthFunc(GL_LESS);
-    Expose(window, picture, finished, size, Edges::kSmoothed);
+    Expose(window, picture, finished, occlusion, size, Edges::kSmoothed);
     state->vtkglDepthFunc(GL_LEQUAL);
   } else {
     target_.Bind(window);
-    Expose(window, picture, finished, size, Edges::kLeft);
+    Expose(window, picture, finished, occlusion, size, Edges::kLeft);
   }
+  if (occlusion != nullptr) occlusion->Deactivate();
   finished.Deactivate();
 }
 

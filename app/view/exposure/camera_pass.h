@@ -24,10 +24,13 @@ namespace arthro::app {
 
 class CameraPass {
  public:
-  // `undisturbed` holds the picture as it was drawn and `finished` the one that is shown, both of
-  // picture.rays * size pixels a side.
-  void Draw(vtkOpenGLRenderWindow* window, const Picture& picture, const LensShade& shade,
-            vtkTextureObject& undisturbed, vtkTextureObject& finished, int size);
+  // Finds the exposure of the picture as it was drawn, picture.rays * size pixels a side.
+  // `occlusion` (OcclusionPass::light) multiplies the picture; null: it is multiplied already.
+  void Meter(vtkOpenGLRenderWindow* window, const Picture& picture, const LensShade& shade,
+             vtkTextureObject& undisturbed, vtkTextureObject* occlusion);
+  // Draws the picture that is shown, `finished`, of the same size, with the last exposure.
+  void Draw(vtkOpenGLRenderWindow* window, const Picture& picture, vtkTextureObject& finished,
+            vtkTextureObject* occlusion, int size);
   const CameraExposure& exposure() const { return exposure_; }  // exposure of the last picture
   vtkOpenGLFramebufferObject& result() { return *target_.framebuffer; }
   void ReleaseGraphicsResources(vtkOpenGLRenderWindow* window);
@@ -37,18 +40,16 @@ class CameraPass {
   enum class Edges { kLeft, kMarked, kSmoothed };
   // Draws one variant of the camera's shader from `finished`; the depth test chooses the pixels.
   void Expose(vtkOpenGLRenderWindow* window, const Picture& picture, vtkTextureObject& finished,
-              int size, Edges edges);
+              vtkTextureObject* occlusion, int size, Edges edges);
   void TakeMarks(vtkOpenGLRenderWindow* window);
-  void Meter(vtkOpenGLRenderWindow* window, const Picture& picture, const LensShade& shade,
-             vtkTextureObject& drawn);
 
   RenderTarget target_, metered_;
   vtkNew<vtkRenderbuffer> marks_;  // depth 1 at edges of the picture, of the target's size
   CameraExposure exposure_;
   std::vector<std::uint8_t> texels_;
   std::vector<MeteredPart> parts_;
-  Pass meter_pass_;
-  std::array<Pass, 64> camera_passes_;  // one per variant of the shader
+  std::array<Pass, 2> meter_passes_;     // without and with occlusion
+  std::array<Pass, 128> camera_passes_;  // one per variant of the shader
 };
 
 }  // namespace arthro::app

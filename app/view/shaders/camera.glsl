@@ -1,10 +1,13 @@
 // The camera behind the scope, over the finished picture: lateral colour, sharpness, exposure and
 // grain [method.md, Camera]. Reads a picture of the same size, or of twice the size and averages
-// four pixels by the filter of the texture. Variants: SAME_SIZE, MARKS, EDGES,
-// FRINGE, DETAIL and GRAIN. MARKS
+// four pixels by the filter of the texture. Variants: SAME_SIZE, OCCLUDED, MARKS, EDGES,
+// FRINGE, DETAIL and GRAIN. OCCLUDED multiplies the picture by the light of its occlusion. MARKS
 // draws all pixels without smoothing and writes the depth 1 at edges, 0 elsewhere; EDGES then draws
 // the pixels at edges alone, by a depth test.
 #include "constants.inc"
+#ifdef OCCLUDED
+#include "occlusion_light.glsl"
+#endif
 in vec2 texCoord;
 uniform sampler2D picture;
 steady float pixel;         // side of a pixel, texture units
@@ -117,7 +120,7 @@ void main() {
   vec3 drawn = colourAside(0, 0), colour = drawn;
   vec2 offCentre = texCoord - 0.5;
   float r2 = 4.0 * dot(offCentre, offCentre);
-  float dark = min(max(drawn.r, max(drawn.g, drawn.b)) / kDarkEnd, 1.0);
+  float brightest = max(drawn.r, max(drawn.g, drawn.b));
 #if defined(DETAIL) || defined(MARKS) || defined(EDGES)
   float n = dot(colourAside(0, 1), kLuma), s = dot(colourAside(0, -1), kLuma),
         e = dot(colourAside(1, 0), kLuma), w = dot(colourAside(-1, 0), kLuma),
@@ -145,6 +148,12 @@ void main() {
   float centre = kDetailGain * sharpening * clear - min(sharpening, 1.0) * fine;
   colour += mix(centre, -rimBlur * detail, min(r2 * r2, 1.0));
 #endif
+#ifdef OCCLUDED
+  float light = occlusionLight(texCoord);
+  colour *= light;
+  brightest *= light;
+#endif
+  float dark = min(brightest / kDarkEnd, 1.0);
   // The fade to the rim is no dark tissue: the response leaves it out.
   float edge = max(1.0 - smoothstep(kRimStart, 1.0, sqrt(r2)), kLeastEdge);
   vec3 level = gain / edge * colour + offset;

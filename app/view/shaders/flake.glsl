@@ -12,6 +12,7 @@ const float kSharpEdge = 0.05, kSoftEdge = 0.45;      // blur of an edge, and mo
 const float kFirstCover = 0.62, kSecondCover = 0.42;  // opacity of the strands
 // Flake: a disc with a ragged edge in three octaves.
 const vec3 kRagSize = vec3(0.17, 0.12, 0.06);
+const float kSmoothed = 3.0;  // loss of the ragged edge out of focus
 const float kFlakeCover = 0.72;
 const float kFlakeInner = 0.22, kFlakeOuter = 0.78;  // radii between which it fades
 const vec3 kYellowish = vec3(0.90, 0.84, 0.76), kWhitish = vec3(0.97, 0.95, 0.92);
@@ -37,7 +38,7 @@ void main() {
     float ragged = kRagSize.x * sin(3.1 * q.x + seed) * sin(2.7 * q.y + 1.9 * seed) +
                    kRagSize.y * sin(7.0 * q.x + 2.1 * seed) * sin(6.1 * q.y + 3.7 * seed) +
                    kRagSize.z * sin(15.0 * q.x + seed) * sin(17.0 * q.y + 2.9 * seed);
-    float way = length(vec2(q.x, q.y * (1.0 + fract(5.1 * seed)))) + ragged;
+    float way = length(vec2(q.x, q.y * (1.0 + fract(5.1 * seed)))) + ragged / (1.0 + kSmoothed * soft);
     cover =
         kFlakeCover * (1.0 - smoothstep(kFlakeInner - 0.2 * soft, kFlakeOuter + 0.8 * soft, way));
   }

@@ -1,5 +1,8 @@
-// Mean colour of each part of the picture, for the exposure of the camera.
+// Mean colour of each part of the picture, for the exposure of the camera. Variant: OCCLUDED.
 #include "constants.inc"
+#ifdef OCCLUDED
+#include "occlusion_light.glsl"
+#endif
 in vec2 texCoord;
 uniform sampler2D picture;
 const float kPlaces = 4.0;  // samples per part and axis
@@ -10,5 +13,8 @@ void main() {
       sum += textureLod(picture,
                         texCoord + (vec2(i, j) / kPlaces - 0.5) / float(kMeteredParts), 0.0)
                  .rgb;
+#ifdef OCCLUDED
+  sum *= occlusionLight(texCoord);
+#endif
   gl_FragData[0] = vec4(sum / (kPlaces * kPlaces), 1.0);
 }

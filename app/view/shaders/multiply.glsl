@@ -1,7 +1,4 @@
-// Hands on the mean light (occlusion_mean.glsl), which the blending multiplies with what is drawn
-// already. A texel of it stands for its upper right corner.
+// Hands on the mean light, which the blending multiplies with what is drawn already.
+#include "occlusion_light.glsl"
 in vec2 texCoord;
-uniform sampler2D factor;
-void main() {
-  gl_FragData[0] = textureLod(factor, texCoord - 0.5 / vec2(textureSize(factor, 0)), 0.0);
-}
+void main() { gl_FragData[0] = vec4(vec3(occlusionLight(texCoord)), 1.0); }

@@ -1,6 +1,6 @@
 // Short-range ambient occlusion: how far the ground rises around a pixel over the plane through it,
 // from pairs of stored depths on opposite sides [method.md, Camera]. Reads the stored depths of
-// the finished picture, and draws a picture of half the size.
+// the finished picture, and draws a smaller picture.
 #include "distance.glsl"
 in vec2 texCoord;
 uniform sampler2D depths;
@@ -14,18 +14,17 @@ const float kFull = 0.75;      // rise as a share of the distance that blocks al
 const float kNearStart = 1.6, kNearEnd = 3.2;  // reaches above a pixel: a part in front, no ground
 const float kMostPlace = 0.08;                 // texture units
 const float kRimFrom = 0.78, kRimTo = 0.94;    // window radii; beyond, places lie outside the window
-const int kPairs = 8;
-// Half of two rings of eight places, one at half the reach.
+const int kPairs = 4;
+// Half of two rings of four places, one at half the reach.
 const vec2 kPair[kPairs] =
-    vec2[](vec2(1.0, 0.0), vec2(0.707, 0.707), vec2(0.0, 1.0), vec2(-0.707, 0.707),
-           vec2(0.462, 0.191), vec2(0.191, 0.462), vec2(-0.191, 0.462), vec2(-0.462, 0.191));
+    vec2[](vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(0.354, 0.354), vec2(-0.354, 0.354));
 
 // Each of 4 x 4 neighbouring pixels turns and shrinks the rings in its own way, so that a thing in
 // front has no copies of its outline around it; the mean over 4 x 4 pixels (occlusion_mean.glsl)
 // leaves none of the pattern.
 const float kTurns[16] = float[](0.0, 8.0, 2.0, 10.0, 12.0, 4.0, 14.0, 6.0, 3.0, 11.0, 1.0, 9.0,
                                  15.0, 7.0, 13.0, 5.0);
-const float kTurn = 0.785398 / 16.0;  // rad; the outer ring repeats after 45 degrees
+const float kTurn = 1.570796 / 16.0;  // rad; the rings repeat after 90 degrees
 const float kLeastRing = 0.6;         // share of the reach
 
 // Returns the inverse distance, which is linear in the stored depth and over a plane.
@@ -38,7 +37,7 @@ float storedAt(vec2 at) {
 }
 
 void main() {
-  vec2 place = texCoord + 0.5 * texel;
+  vec2 place = (floor(texCoord / texel + 0.25) + 0.5) * texel;  // middle of a pixel
   float stored = storedAt(place);
   float inverse = inverseOf(stored), squared = 1.0 / (inverse * inverse);
   float aside = min(shadeReach * inverse * unitsOfAngle, kMostPlace);

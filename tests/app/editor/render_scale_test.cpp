@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -99,6 +101,28 @@ TEST(RenderScale, FeaturesStepBackBeforeTheResolutionAndInTheirOrder) {
     before = scale.features();
   }
   EXPECT_LT(scale.value(), 1);
+}
+
+// A machine that is always just too slow takes every step of the order [method.md, Camera], the
+// same ones each time.
+TEST(RenderScale, EachFeatureHasItsStepAndTheOrderIsTheSameEachTime) {
+  std::vector<std::pair<double, CameraFeatures>> expected;
+  for (const CameraFeatures features :
+       {CameraFeatures::kOcclusion, CameraFeatures::kEdges, CameraFeatures::kFringe,
+        CameraFeatures::kSharpness, CameraFeatures::kGrain, CameraFeatures::kExposure})
+    expected.emplace_back(1.0, features);
+  for (const double coarser : {0.9, 0.8, 0.7, 0.6, 0.5})
+    expected.emplace_back(coarser, CameraFeatures::kExposure);
+  for (int round = 0; round < 2; ++round) {
+    RenderScale scale;
+    std::vector<std::pair<double, CameraFeatures>> steps{{scale.value(), scale.features()}};
+    for (int i = 0; i < 200; ++i) {
+      scale.Note(1.151 * RenderScale::kFrameTime);
+      if (const std::pair now(scale.value(), scale.features()); now != steps.back())
+        steps.push_back(now);
+    }
+    EXPECT_EQ(steps, expected);
+  }
 }
 
 }  // namespace

@@ -276,8 +276,10 @@ TEST_F(ScreensWindow, TheCameraHeadTurnsWithTheScopeOrIsHeldAndTheRimsMarkFollow
   EXPECT_NEAR(MarkAngle(with), 0.0, 1.5);
   EXPECT_NEAR(roll, 47.5, 3.0);
   EXPECT_NEAR(roll - turned, 27.5, 2.5);
-  EXPECT_EQ(Differing(read("again.png"), upright), 0);
-  EXPECT_EQ(Differing(read("back.png"), with), 0);
+  // Only the flecks of the fluid drifted on meanwhile.
+  EXPECT_LT(Differing(read("again.png"), upright), 4000);
+  EXPECT_LT(Differing(read("back.png"), with), 4000);
+  EXPECT_GT(Differing(upright, with), 100000);
 }
 
 TEST_F(ScreensWindow, APracticeCanBeginWithTheHeadUprightAndNoOtherWordIsTaken) {

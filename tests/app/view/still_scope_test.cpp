@@ -1,12 +1,17 @@
 // Steadiness of the picture of a scope that is held still, while what it shows trembles at rest.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "app/view/live_tissues.h"
 #include "app/view/settling.h"
+#include "simulation/practice/replay.h"
+#include "simulation/scene/files/scene_io.h"
 #include "tests/app/view/view_scene.h"
+#include "tests/support/build_paths.h"
 
 namespace arthro::test {
 namespace {
@@ -78,6 +83,60 @@ TEST_F(StillScope, ChangesByTwoLevelsAtMostWhileContactsTremble) {
 
 TEST_F(StillScope, WouldTrembleIfPlacesWereDrawnAsSimulated) {
   EXPECT_GT(LargestChangeOfFilm(false), kMostChange);
+}
+
+// The demo with all that practice shows but flecks: relief, lamp, structure of the tissues, camera,
+// and tissue that is simulated under an instrument. Both hands are held where the demo's trace has
+// them at `moment`, s. Returns the largest change between neighbouring frames of the second second.
+int LargestChangeOfDemo(double moment) {
+  const std::string resources = std::string(ARTHRO_SOURCE_DIR) + "/resources";
+  const LoadedScene loaded = LoadScene(resources + "/demo");
+  const auto presets = simulation::ReadTissuePresets(resources + "/presets/tissues");
+  simulation::Recording held;
+  for (const simulation::TraceRow& row : simulation::ReadTrace(resources + "/demo/trace.csv")) {
+    if (std::abs(row.sample.t - moment) > 1e-6) continue;
+    for (int i = 0; i <= 200; ++i) {
+      held.rows.push_back(row);
+      held.rows.back().sample.t = 0.01 * i;
+    }
+  }
+  std::ranges::stable_sort(held.rows, {}, [](const auto& row) { return row.sample.t; });
+  EXPECT_EQ(held.rows.size(), 402u);
+  app::StillPictures pictures(loaded, simulation::LooksOf(loaded.scene.tissues, presets));
+  const simulation::ScopeOptics optics = simulation::OpticsOf(loaded.scene.scope, loaded.lens);
+  app::LiveTissues live;
+  ColourImage before;
+  int most = 0, frames = 0, touched = 0;
+  double next = 0;
+  simulation::Replay(loaded, held, {}, {}, nullptr, presets,
+                     [&](double t, const auto& snapshot, const auto* world) {
+                       if (t < next) return;
+                       next += kFrameTime;
+                       live.Show(*world, loaded.scene.tissues, pictures.view(), nullptr);
+                       pictures.eye().Follow(*world);
+                       Picture picture =
+                           app::PictureOf(snapshot, pictures.eye().MoveTo(snapshot.scope),
+                                          snapshot.kind, optics, {.is_upright = true});
+                       picture.instrument = live.Settled(*picture.instrument);
+                       picture.samples = 2;
+                       picture.disturbances.time = t;
+                       pictures.view().Render(picture, kSize);
+                       ColourImage shown = pictures.view().ReadPixels();
+                       if (t > 1.0) {
+                         most = std::max(most, LargestChange(before, shown));
+                         touched += snapshot.instrument.contact > 0 ? 1 : 0;
+                         ++frames;
+                       }
+                       before = std::move(shown);
+                     });
+  EXPECT_GE(frames, 20);
+  std::printf("demo at %.2f s: %d levels at most, tissue touched in %d of %d frames\n", moment,
+              most, touched, frames);
+  return most;
+}
+
+TEST_F(StillScope, OfTheDemoChangesByTwoLevelsAtMost) {
+  EXPECT_LE(LargestChangeOfDemo(5.0), kMostChange);
 }
 
 }  // namespace

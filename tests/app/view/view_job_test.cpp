@@ -1,4 +1,9 @@
 // The job `view`, run as a user runs it, without a display.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <random>
+
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -138,6 +143,72 @@ TEST_F(ViewJob, ReadsEveryKindOfPanorama) {
   WriteScene(folder_ / "scene.json", scene);
   cv::imwrite(file, cv::Mat(1, 1, CV_8UC3, cv::Scalar(40, 80, 160)));
   drawn();
+}
+
+// A sentence and a picture.
+TEST_F(ViewJob, ATissueOfAnUnknownPresetIsDrawnWithoutStructure) {
+  LoadedScene loaded = MakeViewScene();
+  loaded.scene.tissues[0].material = "no-such-preset";
+  WriteScene(folder_ / "scene.json", loaded.scene);
+  const ProgramResult run = RunProgram(
+      "view " + scene_ + kPose + " --size 96 -o " + (folder_ / "p.png").string(), kNoDisplay);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.err, "note: there is no preset no-such-preset; ring is drawn without structure\n");
+  EXPECT_EQ(ReadColourImage(folder_ / "p.png").width, 96);
+}
+
+TEST_F(ViewJob, DrawsAPanoramaOfOnePixel) {
+  Scene scene = MakeViewScene(16, 16).scene;
+  scene.tissues.clear();
+  scene.backdrop.projection.centre_px = {0, 0};
+  scene.backdrop.projection.focal_px = 1;
+  ColourImage pixel(1, 1);
+  std::copy_n(std::array<std::uint8_t, 3>{180, 120, 100}.data(), 3, pixel.at(0, 0));
+  WriteColourImage(folder_ / "panorama.png", pixel);
+  for (const bool has_depth : {false, true}) {
+    scene.backdrop.depth = has_depth ? "depth.tiff" : "";
+    WriteDepthMap(folder_ / "depth.tiff", DepthMap(1, 1, 0.004f));
+    for (const double relight : {0.0, 1.0}) {
+      scene.backdrop.relight = relight;
+      WriteScene(folder_ / "scene.json", scene);
+      const ProgramResult run = RunProgram(
+          "view " + scene_ + " --view-angle-deg 0 --size 96 -o " + (folder_ / "p.png").string(),
+          kNoDisplay);
+      EXPECT_EQ(run.exit_code, 0) << run.err;
+      // The pixel fills some 50 degrees in the middle of the window.
+      const ColourImage picture = ReadColourImage(folder_ / "p.png");
+      EXPECT_GT(picture.at(48, 48)[0], 40) << has_depth << relight;
+    }
+  }
+}
+
+// Outlines of noise would be all over the picture.
+TEST_F(ViewJob, DrawsADepthMapThatIsAllNoise) {
+  LoadedScene loaded = MakeViewScene();
+  loaded.scene.tissues.clear();
+  DepthMap noise(loaded.panorama->width, loaded.panorama->height);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> height(0.0f, 0.02f);
+  for (int y = 0; y < noise.height; ++y)
+    for (int x = 0; x < noise.width; ++x) noise.at(x, y) = height(random);
+  WriteDepthMap(folder_ / "depth.tiff", noise);
+  loaded.scene.backdrop.relight = 1;
+  WriteScene(folder_ / "scene.json", loaded.scene);
+  const ProgramResult check = RunProgram("check " + scene_, kNoDisplay);
+  EXPECT_NE((check.out + check.err).find("outlines are not drawn"), std::string::npos)
+      << check.out << check.err;
+  const ProgramResult run = RunProgram(
+      "view " + scene_ + kPose + " --no-camera --size 256 -o " + (folder_ / "p.png").string(),
+      kNoDisplay);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  // The colours vary slowly; outlines of noise would be steps between neighbours.
+  const ColourImage picture = ReadColourImage(folder_ / "p.png");
+  int steps = 0, count = 0;
+  for (int y = 64; y < 192; ++y)
+    for (int x = 64; x < 192; ++x, ++count)
+      steps += std::abs(int(picture.at(x + 1, y)[1]) - int(picture.at(x, y)[1])) > 12 ? 1 : 0;
+  std::printf("steps between neighbours: %.2f %%\n", 100.0 * steps / count);
+  EXPECT_LE(steps, 0.01 * count);
 }
 
 TEST_F(ViewJob, RefusesInvalidInputAndWritesNothing) {

@@ -134,7 +134,8 @@ TEST(BenchJob, HoldsThePictureAgainstTheTracer) {
   std::map<std::string, int> parts;
   std::map<std::pair<int, int>, double> sphere;  // keyed by size and panorama
   std::set<int> triangles;
-  std::map<int, std::vector<double>> off_still;  // keyed by size: one per row with a camera
+  std::map<int, std::vector<double>> off_still;  // keyed by size: one per feature of the camera
+  std::map<std::string, int> features;           // rows per feature
   for (const auto& row : bench.at("rows")) {
     const std::string part = row.at("part");
     const int cell = row.at("relief_cell");
@@ -158,8 +159,6 @@ TEST(BenchJob, HoldsThePictureAgainstTheTracer) {
       triangles.insert(row.at("triangles").get<int>());
       EXPECT_LT(off, 0.02 + 0.02) << row;
       EXPECT_TRUE(row.at("colour_off").is_null()) << row;
-      if (row.at("off_still").is_null()) continue;
-      off_still[row.at("size")].push_back(row.at("off_still").get<double>());
       continue;
     }
     if (part == "stairs") {
@@ -179,8 +178,22 @@ TEST(BenchJob, HoldsThePictureAgainstTheTracer) {
     }
   }
   EXPECT_EQ(parts, (std::map<std::string, int>{
-                       {"relief", 18}, {"samples", 8}, {"stairs", 3}, {"scene", 26}}));
+                       {"relief", 18}, {"samples", 8}, {"stairs", 3}, {"scene", 14}}));
   EXPECT_EQ(sphere.size(), 3u);
+  for (const auto& row : bench.at("costs")) {
+    ++features[row.at("feature")];
+    EXPECT_GT(row.at("picture").at("cpu_ms_median"), 0.0) << row;
+    EXPECT_LE(row.at("two_cores_ms"), row.at("picture").at("cpu_ms_p99")) << row;
+    EXPECT_TRUE(row.at("share").at("cpu_ms_median").is_number()) << row;
+    if (!row.at("ends_off").is_null() && row.at("feature") != "backdrop on a bare sphere") {
+      EXPECT_LT(row.at("ends_off"), 0.02 + 0.02) << row;
+    }
+    if (!row.at("off_still").is_null())
+      off_still[row.at("size")].push_back(row.at("off_still").get<double>());
+  }
+  EXPECT_EQ(features.size(), 13u);
+  for (const auto& [feature, rows] : features) EXPECT_EQ(rows, 2) << feature;
+  EXPECT_EQ(features.count("occlusion"), 1u);
   // The last row with a camera adds occlusion, the one before smooths edges.
   ASSERT_EQ(off_still.size(), 2u);
   for (const auto& [size, off] : off_still) {
