@@ -27,6 +27,12 @@ const float kTopStart = 0.1, kTopEnd = 0.3;  // share of the step below its uppe
 const float kFoot = 0.95;                    // share of the step from which its foot begins
 const float kSideBlur = 12.0;                // texels of the panorama
 const float kSideShift = 14.0;               // texels towards the upper edge
+// A side is no brighter than the surface between it and the place of its colour: at this share of
+// the shift, at this level of detail.
+const float kEdgeShare = 0.55, kEdgeLevel = 3.0;
+const vec3 kLuma = vec3(kLumaRed, kLumaGreen, kLumaBlue);
+const float kLeastLuma = 0.01;    // smallest luma that is divided by
+const float kNoisySide = 0.2e-3;  // m, lowest step with a side in a relief that counts as noisy
 const float kWallShade = 0.35;               // loss of light on a side
 const float kWallFacing = 0.8;               // cosine to the lamp that a side counts as
 // Fluid film under the lamp.
@@ -114,16 +120,24 @@ void main() {
   float top = max(looks.x, looks.z);
   float isStep = smoothstep(leastSide, 2.0 * leastSide, top - looks.y);
   side *= isStep;
+  float below = smoothstep(kTopStart, kTopEnd, down);
   float foot = step(kFoot, (top - here) / max(top - looks.y, 1e-6));
-  wall = max(side * smoothstep(kTopStart, kTopEnd, down),
+  wall = max(side * below,
              isStep * smoothstep(kSide, kFullSide, (looks.z - looks.x) / way)) *
          (1.0 - foot);
-  side *= 1.0 - foot;
+  // A noisy relief is footage, whose own blur is wider than the smear: near the upper edge its
+  // texels are the right ones.
+  side *= (1.0 - foot) * mix(1.0, below, step(kNoisySide, radius * leastSide));
   dx += side * kSideBlur / texels * vec2(1.0, 0.0);
   dy += side * kSideBlur / texels * vec2(0.0, 1.0);
-  uv += side * kSideShift / kLookTexels * reliefTexels / texels * up;
+  vec2 shift = kSideShift / kLookTexels * reliefTexels / texels * up;
+  float edgeLuma = dot(textureLod(panorama, uv + kEdgeShare * shift, kEdgeLevel).rgb, kLuma);
+  uv += side * shift;
 #endif
   vec3 colour = imaged ? panoramaColour(uv, dx * texels, dy * texels) : vec3(0.0);
+#if defined(RELIEF) && !defined(PLAIN)
+  colour *= mix(1.0, min(edgeLuma / max(dot(colour, kLuma), kLeastLuma), 1.0), side);
+#endif
 
 #ifdef RELIEF
   float distance = radius * reach;
