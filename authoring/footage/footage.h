@@ -12,7 +12,9 @@
 #include <string>
 #include <vector>
 
-#include <opencv2/core.hpp>
+namespace cv {
+class Mat;
+}
 
 namespace arthro::authoring {
 

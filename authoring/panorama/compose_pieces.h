@@ -5,6 +5,8 @@
 #include <map>
 #include <vector>
 
+#include <opencv2/core.hpp>
+
 #include "authoring/footage/footage.h"
 #include "authoring/panorama/compose/compose.h"
 #include "authoring/panorama/frames/placed_frame.h"

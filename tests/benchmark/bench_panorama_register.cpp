@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
 
 #include "authoring/footage/footage.h"
 #include "authoring/lens/rectifier.h"

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <opencv2/core.hpp>
 
 #include "app/cli/flags/number_flags.h"
 #include "app/cli/flags/options_cli.h"

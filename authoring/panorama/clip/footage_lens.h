@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <opencv2/core.hpp>
+
 #include "authoring/footage/footage.h"
 #include "simulation/core/progress.h"
 #include "simulation/scene/lens.h"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <opencv2/core.hpp>
 
 #include "app/state/edits.h"
 #include "app/state/footage/footage_source.h"

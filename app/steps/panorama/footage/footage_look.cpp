@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <opencv2/core.hpp>
+
 #include "app/state/command.h"
 #include "app/steps/panorama/board/board_picture.h"
 #include "app/steps/panorama/board/footage_mail.h"
