@@ -66,7 +66,7 @@ class ShortWrite : public JobInputs {
 };
 
 // A block of `ulimit -f` is 512 bytes in this shell; each result is larger. The signal of a limit
-// that is passed is left as it was.
+// that is passed is left as it was. A job that hangs is killed, so that the message names it.
 TEST_F(ShortWrite, AFileSizeLimitEndsEachJobWithOneSentenceAndNoFile) {
   for (const std::string job : {
            "4 PROGRAM centres @S --roll-steps 500 -o @out/c.csv",
@@ -85,8 +85,9 @@ TEST_F(ShortWrite, AFileSizeLimitEndsEachJobWithOneSentenceAndNoFile) {
            "4 PROGRAM view @S --size 64 -o @out/v.png",
            "1 PROGRAM devices --json @out/devices.json",
        }) {
-    ExpectOneSentence(
-        Shell("ulimit -f " + std::regex_replace(job, std::regex(" PROGRAM"), "; PROGRAM")), job);
+    ExpectOneSentence(Shell("ulimit -f " + std::regex_replace(job, std::regex(" PROGRAM"),
+                                                              "; timeout -s KILL 300 PROGRAM")),
+                      job);
     for (const auto& entry : fs::recursive_directory_iterator(At("out")))
       ADD_FAILURE() << job << " left " << entry.path();
   }
