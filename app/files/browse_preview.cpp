@@ -1,13 +1,13 @@
 #include "app/files/browse_preview.h"
 
-#include <algorithm>
 #include <utility>
 #include <variant>
 
 #include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 
 #include "app/files/start_page.h"
+#include "app/steps/panorama/board/board_picture.h"
 #include "authoring/footage/footage.h"
 #include "authoring/project/file_ending.h"
 #include "simulation/core/error.h"
@@ -22,16 +22,6 @@ namespace fs = std::filesystem;
 // Larger files take too long to read for a glance.
 constexpr std::uintmax_t kMostBytes = 256u << 20;
 
-std::shared_ptr<const ColourImage> Shrunk(const cv::Mat& whole) {
-  const double scale = std::min(
-      1.0, static_cast<double>(BrowsePreview::kPictureSide) / std::max(whole.cols, whole.rows));
-  auto small = std::make_shared<ColourImage>(std::max(1, static_cast<int>(scale * whole.cols)),
-                                             std::max(1, static_cast<int>(scale * whole.rows)));
-  cv::Mat target(small->height, small->width, CV_8UC3, small->rgb.data());
-  cv::resize(whole, target, target.size(), 0, 0, cv::INTER_AREA);
-  return small;
-}
-
 FilePreview OfScene(const fs::path& place) {
   const StartScene scene = ReadStartScene(place);
   return {place, scene.picture, scene.problem.empty() ? scene.title : scene.problem};
@@ -39,9 +29,8 @@ FilePreview OfScene(const fs::path& place) {
 
 FilePreview OfPicture(const fs::path& file) {
   const ColourImage picture = ReadColourImage(file);
-  const cv::Mat whole(picture.height, picture.width, CV_8UC3,
-                      const_cast<std::uint8_t*>(picture.rgb.data()));
-  return {file, Shrunk(whole), fmt::format("{} x {} px", picture.width, picture.height)};
+  return {file, PictureFromColour(picture, BrowsePreview::kPictureSide),
+          fmt::format("{} x {} px", picture.width, picture.height)};
 }
 
 FilePreview OfVideo(const fs::path& file) {
@@ -51,7 +40,7 @@ FilePreview OfVideo(const fs::path& file) {
   if (info.frames > 0 && info.frames_per_second > 0)
     preview.words += fmt::format(", {:.0f} s", info.frames / info.frames_per_second);
   cv::Mat frame;
-  if (footage.Next(frame) && !frame.empty()) preview.picture = Shrunk(frame);
+  if (footage.Next(frame)) preview.picture = PictureFromMat(frame, BrowsePreview::kPictureSide);
   return preview;
 }
 

@@ -4,12 +4,11 @@
 #include <chrono>
 #include <ctime>
 
-#include <opencv2/imgproc.hpp>
-
 #include "app/files/scene_files.h"
 #include "app/platform/resource_folder.h"
 #include "app/state/command.h"
 #include "app/steps/tissue/library/tissue_library.h"
+#include "authoring/footage/resized_picture.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
 
@@ -27,14 +26,9 @@ std::shared_ptr<const ColourImage> SmallPicture(const ColourImage& picture) {
                 std::clamp(static_cast<int>(StartPage::kPictureWidth / scale), 1, picture.width),
             height =
                 std::clamp(static_cast<int>(StartPage::kPictureHeight / scale), 1, picture.height);
-  const cv::Mat whole(picture.height, picture.width, CV_8UC3,
-                      const_cast<std::uint8_t*>(picture.rgb.data()));
-  auto small = std::make_shared<ColourImage>(StartPage::kPictureWidth, StartPage::kPictureHeight);
-  cv::Mat target(small->height, small->width, CV_8UC3, small->rgb.data());
-  cv::resize(
-      whole(cv::Rect((picture.width - width) / 2, (picture.height - height) / 2, width, height)),
-      target, target.size(), 0, 0, cv::INTER_AREA);
-  return small;
+  const int left = (picture.width - width) / 2, top = (picture.height - height) / 2;
+  return Share(authoring::Resized(picture, {left, top, left + width, top + height},
+                                  StartPage::kPictureWidth, StartPage::kPictureHeight));
 }
 
 std::string SavedAt(const fs::path& place) {

@@ -1,10 +1,7 @@
 #include "app/files/step_pictures.h"
 
-#include <algorithm>
-
-#include <opencv2/imgproc.hpp>
-
 #include "app/steps/depth/depth_step.h"
+#include "authoring/footage/resized_picture.h"
 
 namespace arthro::app {
 namespace {
@@ -20,14 +17,11 @@ bool WantsStepPicture(const EditorState& state) {
 
 void KeepStepPicture(EditorState& state, const ColourImage& seen) {
   if (seen.empty()) return;
-  const cv::Mat whole(seen.height, seen.width, CV_8UC3, const_cast<std::uint8_t*>(seen.rgb.data()));
-  auto small = std::make_shared<ColourImage>(kStepPictureSide, kStepPictureSide);
-  cv::Mat target(small->height, small->width, CV_8UC3, small->rgb.data());
-  cv::resize(whole, target, target.size(), 0, 0, cv::INTER_AREA);
   // Ids grow, so the first ones are the oldest.
   if (state.step_pictures.size() >= kMostKept)
     state.step_pictures.erase(state.step_pictures.begin());
-  state.step_pictures[state.history.StateId()] = std::move(small);
+  state.step_pictures[state.history.StateId()] =
+      Share(authoring::Resized(seen, kStepPictureSide, kStepPictureSide));
 }
 
 std::shared_ptr<const ColourImage> StepPicture(const EditorState& state, int step) {

@@ -4,22 +4,16 @@
 #include <new>
 #include <utility>
 
-#include <opencv2/imgproc.hpp>
-
+#include "authoring/footage/resized_picture.h"
 #include "simulation/core/crash_stack.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {
 namespace {
 
-ColourImage Resized(const ColourImage& picture, int size) {
-  if (picture.width == size && picture.height == size) return picture;
-  ColourImage resized(size, size);
-  const cv::Mat from(picture.height, picture.width, CV_8UC3,
-                     const_cast<std::uint8_t*>(picture.rgb.data()));
-  cv::Mat to(size, size, CV_8UC3, resized.rgb.data());
-  cv::resize(from, to, to.size(), 0, 0, size < picture.width ? cv::INTER_AREA : cv::INTER_LINEAR);
-  return resized;
+ColourImage AtSize(const ColourImage& picture, int size) {
+  const bool is_so = picture.width == size && picture.height == size;
+  return is_so ? picture : authoring::Resized(picture, size, size);
 }
 
 std::variant<VideoFile, PictureSequence> FramesOf(const std::filesystem::path& file,
@@ -92,7 +86,7 @@ void LiveFilm::Write() {
     }
     const bool is_end = item.picture.empty();
     ColourImage next;
-    if (!is_end) next = LaidOut(Resized(item.picture, form_.size), form_.shape);
+    if (!is_end) next = LaidOut(AtSize(item.picture, form_.size), form_.shape);
     if (frame.empty()) frame = next;  // the first picture also fills the time before it
     std::visit(
         [&](auto& frames) {

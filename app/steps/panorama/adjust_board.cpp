@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
 
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
@@ -63,9 +62,7 @@ void KeepAdjustPicture(EditorState& state) {
   AdjustBoard& board = state.steps.panorama->adjust;
   const auto& panorama = state.document().panorama;
   if (!panorama || board.drawn_from == panorama) return;
-  const cv::Mat rgb(panorama->height, panorama->width, CV_8UC3,
-                    const_cast<std::uint8_t*>(panorama->rgb.data()));
-  board.shown = PictureFromMat(rgb, kBoardEdge);
+  board.shown = PictureFromColour(*panorama, kBoardEdge);
   board.drawn_from = panorama;
 }
 

@@ -44,9 +44,16 @@ SharedPicture PictureFromMat(const cv::Mat& picture, int longest) {
   return image;
 }
 
-SharedPicture PictureFromRgba(const authoring::RgbaPicture& picture, int longest) {
+SharedPicture PictureFromColour(const ColourImage& picture, int longest) {
   if (picture.empty()) return nullptr;
   // A view of the bytes; it is only read.
+  return PictureFromMat(cv::Mat(picture.height, picture.width, CV_8UC3,
+                                const_cast<std::uint8_t*>(picture.rgb.data())),
+                        longest);
+}
+
+SharedPicture PictureFromRgba(const authoring::RgbaPicture& picture, int longest) {
+  if (picture.empty()) return nullptr;
   return PictureFromMat(cv::Mat(picture.height, picture.width, CV_8UC4,
                                 const_cast<std::uint8_t*>(picture.rgba.data())),
                         longest);

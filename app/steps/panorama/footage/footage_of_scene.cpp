@@ -4,8 +4,6 @@
 #include <memory>
 #include <utility>
 
-#include <opencv2/core.hpp>
-
 #include "app/state/edits.h"
 #include "app/steps/panorama/board/board_picture.h"
 #include "app/steps/panorama/board/panorama_run.h"
@@ -18,13 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using authoring::FootageRecord;
-
-SharedPicture Small(const ColourImage& picture) {
-  if (picture.empty()) return nullptr;
-  const cv::Mat rgb(picture.height, picture.width, CV_8UC3,
-                    const_cast<std::uint8_t*>(picture.rgb.data()));
-  return PictureFromMat(rgb, kBoardEdge);
-}
 
 void TakeChoices(FootageBoard& board, const std::shared_ptr<const FootageRecord>& record) {
   board.record = record;
@@ -78,7 +69,7 @@ FootageBoard BoardOf(const EditorState& state, const std::shared_ptr<const Foota
 
   auto made = std::make_shared<MadePanorama>();
   made->picture = state.document().panorama;
-  made->shown = Small(OrEmpty(state.document().panorama));
+  made->shown = PictureFromColour(OrEmpty(state.document().panorama), kBoardEdge);
   made->projection = state.document().scene.backdrop.projection;
   made->report = report;
   made->excluded = board.excluded;

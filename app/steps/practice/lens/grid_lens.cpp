@@ -8,6 +8,7 @@
 #include "app/state/footage/footage_optics.h"
 #include "app/steps/practice/practice_step.h"
 #include "authoring/footage/picture_list.h"
+#include "authoring/lens/grid/lens_from_pictures.h"
 #include "simulation/scene/json/lens_io.h"
 
 namespace arthro::app {
@@ -24,13 +25,13 @@ void LensFromGrid(EditorState& state, const fs::path& place) {
   if (fs::is_directory(place)) files = authoring::PicturesIn(place);
   state.jobs.Start("Calibrate the lens", [files, spacing = state.steps.practice->grid->spacing](
                                              const Progress& progress) {
-    const authoring::PicturesLens found =
-        authoring::LensFromPictures(files, spacing, {}, {}, progress);
+    const std::shared_ptr<const authoring::PicturesLens> found =
+        Share(authoring::LensFromPictures(files, spacing, {}, {}, progress));
     return [files, found](EditorState& now) {
       now.steps.practice->grid->pictures = files;
       now.steps.practice->grid->found = found;
-      now.message =
-          found.refusal.empty() ? "The lens was calibrated." : "There is no lens: " + found.refusal;
+      now.message = found->refusal.empty() ? "The lens was calibrated."
+                                           : "There is no lens: " + found->refusal;
     };
   });
 }

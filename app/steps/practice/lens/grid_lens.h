@@ -3,12 +3,15 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "app/state/editor_state.h"
-#include "authoring/lens/grid/lens_from_pictures.h"
+
+namespace arthro::authoring {
+struct PicturesLens;
+}
 
 namespace arthro::app {
 
@@ -18,7 +21,7 @@ struct Ui;
 struct GridLens {
   double spacing = 1e-3;  // m, step of the target
   std::vector<std::filesystem::path> pictures;
-  std::optional<authoring::PicturesLens> found;  // result of the last pictures
+  std::shared_ptr<const authoring::PicturesLens> found;  // result of the last pictures, or null
 };
 
 // Asks for a folder of pictures, or for one picture, and calibrates.

@@ -7,6 +7,7 @@
 #include "app/panels/command_button.h"
 #include "app/steps/practice/lens/grid_lens.h"
 #include "app/steps/practice/practice_step.h"
+#include "authoring/lens/grid/lens_from_pictures.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/json/lens_io.h"
 
