@@ -87,7 +87,7 @@ void ChangeNotes(Scene& scene, const Change& change) {
 }
 
 template <class Entry>
-void PutEntry(std::vector<Entry>& entries, Entry&& entry) {
+void PutEntry(std::vector<Entry>& entries, Entry entry) {
   const auto own = EntryOf(entries, entry.tissue);
   if (own != entries.end())
     *own = std::move(entry);

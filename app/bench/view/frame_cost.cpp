@@ -117,6 +117,7 @@ std::vector<FrameCostRow> MeasureFrameCosts(const FrameCostOptions& options,
   std::vector<FrameCostRow> rows;
   for (std::size_t s = 0; s < sizes.size(); ++s) {
     std::vector<Picture> pictures;
+    pictures.reserve(kChain.size());
     for (const Link& link : kChain) pictures.push_back(PictureOf(link));
     SurfaceMesh now = parts.ring;
     int drawn = 0;

@@ -69,7 +69,7 @@ class Overview {
   // Gives box and handle to a part of the chosen tissue, drawn translucent; nullptr gives them
   // back. While its handle is dragged the part stays as it is. Its pose may have another scale
   // than 1.
-  void ShowPart(SharedSurface part, const Pose& portal_from_part);
+  void ShowPart(const SharedSurface& part, const Pose& portal_from_part);
   std::function<void(const Pose& pose, bool finished)> on_part;  // like on_pose, for the part
   // Axes of the handle's arms: those of the portal frame, or the tissue's own. A left drag that
   // begins on the end of an arm moves the tissue along it.

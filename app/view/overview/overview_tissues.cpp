@@ -148,7 +148,7 @@ void Overview::ChooseTissue(int index) {
   p.changed = true;
 }
 
-void Overview::ShowPart(SharedSurface surface, const Pose& portal_from_part) {
+void Overview::ShowPart(const SharedSurface& surface, const Pose& portal_from_part) {
   Parts& p = *parts_;
   if (p.dragging || p.dragged_arm >= 0) return;
   const bool is_same_surface = surface == p.part_surface;
