@@ -1,6 +1,7 @@
 #include "authoring/alignment/placing_notes.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -77,13 +78,24 @@ auto EntryOf(std::vector<Entry>& entries, const std::string& tissue) {
                       [&](const Entry& entry) { return entry.tissue == tissue; });
 }
 
-// `change` gets the notes of a scene that has some.
+// The notes of a scene; nothing where it has none, or some that cannot be read.
+std::optional<PlacingNotes> ReadNotes(const Scene& scene) {
+  const auto text = scene.extensions.find(kPlacingKey);
+  if (text == scene.extensions.end()) return std::nullopt;
+  try {
+    return NotesFromText(text->second);
+  } catch (const Error&) {
+    return std::nullopt;  // notes are a convenience, and no reason not to open a scene
+  }
+}
+
+// Notes that cannot be read, as those of a later version, stay as they are.
 template <class Change>
 void ChangeNotes(Scene& scene, const Change& change) {
-  if (!scene.extensions.contains(kPlacingKey)) return;
-  PlacingNotes notes = NotesOf(scene);
-  change(notes);
-  PutNotes(scene, notes);
+  std::optional<PlacingNotes> notes = ReadNotes(scene);
+  if (!notes) return;
+  change(*notes);
+  PutNotes(scene, *notes);
 }
 
 template <class Entry>
@@ -104,15 +116,7 @@ const Entry* Find(const std::vector<Entry>& entries, const std::string& tissue) 
 
 }  // namespace
 
-PlacingNotes NotesOf(const Scene& scene) {
-  const auto text = scene.extensions.find(kPlacingKey);
-  if (text == scene.extensions.end()) return {};
-  try {
-    return NotesFromText(text->second);
-  } catch (const Error&) {
-    return {};  // notes are a convenience, and no reason not to open a scene
-  }
-}
+PlacingNotes NotesOf(const Scene& scene) { return ReadNotes(scene).value_or(PlacingNotes()); }
 
 void PutNotes(Scene& scene, const PlacingNotes& notes) {
   if (notes.empty())

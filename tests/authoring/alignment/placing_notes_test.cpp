@@ -78,6 +78,11 @@ TEST(PlacingNotes, OfAnotherVersionAreNoReasonNotToOpenAScene) {
   Scene scene;
   scene.extensions[kPlacingKey] = R"({"schema": "arthroscene.placing/9"})";
   EXPECT_TRUE(NotesOf(scene).empty());
+  const Scene before = scene;
+  RenameInNotes(scene, "meniscus", "medial meniscus");
+  MirrorInNotes(scene, "meniscus", 0);
+  MoveNotes(scene, [](const glm::dvec3& x) { return 2.0 * x; });
+  EXPECT_EQ(scene.extensions, before.extensions) << "kept for the version that reads them";
 }
 
 }  // namespace
