@@ -8,11 +8,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "simulation/core/error.h"
 #include "simulation/core/input_file.h"
-#include "simulation/core/json_text.h"
+#include "simulation/core/option_fields.h"
 #include "simulation/scene/files/archive_io.h"
 
 namespace arthro::app {
@@ -35,11 +34,24 @@ std::string TimeOfDay() {
   return words;
 }
 
+// Content of the file: who holds the scene.
+struct Mark {
+  int process = 0;
+  std::string host, since;
+
+  template <class V>
+  void Visit(V&& v) {
+    v("process", process, Any{}, "", "Number of the process.");
+    v("host", host, Any{}, "", "Name of its computer.");
+    v("since", since, Any{}, "", "Time of day, hours and minutes.");
+  }
+};
+
 std::string WordsOfMark(const fs::path& file) {
   try {
-    const auto json = ParseJson(ReadWholeFile(file, kMostJsonBytes), Code::kBadData, file);
-    return fmt::format("process {} on {} since {}", json.at("process").get<int>(),
-                       json.at("host").get<std::string>(), json.at("since").get<std::string>());
+    Mark mark;
+    ReadOptionsText(ReadWholeFile(file, kMostJsonBytes), file, mark);
+    return fmt::format("process {} on {} since {}", mark.process, mark.host, mark.since);
   } catch (const std::exception&) {
     return "another process";  // its mark is not written yet
   }
@@ -73,10 +85,7 @@ SceneLock::SceneLock(const fs::path& place) {
       continue;
     }
     const std::string mark =
-        nlohmann::json{
-            {"process", static_cast<int>(::getpid())}, {"host", HostName()}, {"since", TimeOfDay()}}
-            .dump() +
-        "\n";
+        OptionsText(Mark{static_cast<int>(::getpid()), HostName(), TimeOfDay()}) + "\n";
     if (::ftruncate(lock, 0) != 0 ||
         ::pwrite(lock, mark.data(), mark.size(), 0) != static_cast<ssize_t>(mark.size())) {
       // A full disk: the lock counts, its words are missing.

@@ -1,37 +1,22 @@
 #include "app/state/settings/view_layout.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
-
-#include <nlohmann/json.hpp>
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/input_file.h"
-#include "simulation/core/json_text.h"
+#include "simulation/core/option_fields.h"
 
 namespace arthro::app {
-namespace {
-
-using Shown = ViewLayout::Shown;
-constexpr std::array<std::pair<Shown, const char*>, 3> kShown = {
-    {{Shown::kBoth, "both"}, {Shown::kScope, "scope"}, {Shown::kOverview, "overview"}}};
-
-}  // namespace
 
 ViewLayout ReadViewLayout(const std::filesystem::path& file) {
   std::error_code ignored;
   if (file.empty() || !std::filesystem::exists(file, ignored)) return {};
   try {
-    const auto json = ParseJson(ReadWholeFile(file, kMostJsonBytes), Code::kBadData, file);
     ViewLayout layout;
-    layout.overview_share = std::clamp(json.at("overview_share").get<double>(),
-                                       ViewLayout::kLeastShare, ViewLayout::kMostShare);
-    layout.is_swapped = json.at("swapped").get<bool>();
-    const auto words = json.at("shown").get<std::string>();
-    for (const auto& [shown, word] : kShown)
-      if (words == word) layout.shown = shown;
+    ReadOptionsText(ReadWholeFile(file, kMostJsonBytes), file, layout);
+    layout.overview_share =
+        std::clamp(layout.overview_share, ViewLayout::kLeastShare, ViewLayout::kMostShare);
     return layout;
   } catch (const std::exception&) {
     return {};
@@ -40,12 +25,9 @@ ViewLayout ReadViewLayout(const std::filesystem::path& file) {
 
 void WriteViewLayout(const std::filesystem::path& file, const ViewLayout& layout) {
   if (file.empty()) return;
-  nlohmann::json json = {{"overview_share", layout.overview_share}, {"swapped", layout.is_swapped}};
-  for (const auto& [shown, word] : kShown)
-    if (layout.shown == shown) json["shown"] = word;
   try {
     std::filesystem::create_directories(file.parent_path());
-    WriteAtomically(file, json.dump(2) + "\n");
+    WriteAtomically(file, OptionsText(layout, 2) + "\n");
   } catch (const std::exception&) {
     // The next start has the defaults.
   }

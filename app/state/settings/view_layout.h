@@ -5,6 +5,8 @@
 
 #include <filesystem>
 
+#include "simulation/core/options.h"
+
 namespace arthro::app {
 
 struct ViewLayout {
@@ -14,6 +16,16 @@ struct ViewLayout {
   Shown shown = Shown::kBoth;
   double overview_share = 0.38;  // share of the width beside the controls
   bool is_swapped = false;       // the overview stands on the left
+
+  template <class V>
+  void Visit(V&& v) {
+    v("shown", shown,
+      Choices<Shown>{
+          {{Shown::kBoth, "both"}, {Shown::kScope, "scope"}, {Shown::kOverview, "overview"}}},
+      "", "Views beside the controls.");
+    v("overview_share", overview_share, Any{}, "", "Share of the overview in their width.");
+    v("swapped", is_swapped, Any{}, "", "The overview stands on the left.");
+  }
   friend bool operator==(const ViewLayout&, const ViewLayout&) = default;
 };
 

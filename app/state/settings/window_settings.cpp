@@ -7,8 +7,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/input_file.h"
-#include "simulation/core/json_text.h"
-#include "simulation/core/options_json.h"
+#include "simulation/core/option_fields.h"
 
 namespace arthro::app {
 namespace {
@@ -60,8 +59,9 @@ WindowSettings ReadWindowSettings(const std::filesystem::path& file) {
   std::error_code ignored;
   if (file.empty() || !std::filesystem::exists(file, ignored)) return {};
   try {
-    return OptionsFromJson<WindowSettings>(
-        ParseJson(ReadWholeFile(file, kMostJsonBytes), Code::kBadData, file), file);
+    WindowSettings settings;
+    ReadOptionsText(ReadWholeFile(file, kMostJsonBytes), file, settings);
+    return settings;
   } catch (const std::exception&) {
     return {};
   }
@@ -71,7 +71,7 @@ void WriteWindowSettings(const std::filesystem::path& file, const WindowSettings
   if (file.empty()) return;
   try {
     std::filesystem::create_directories(file.parent_path());
-    WriteAtomically(file, JsonFromOptions(settings).dump(2) + "\n");
+    WriteAtomically(file, OptionsText(settings, 2) + "\n");
   } catch (const std::exception&) {
     // The next start has what was there.
   }

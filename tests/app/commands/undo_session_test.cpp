@@ -280,12 +280,14 @@ TEST_F(UndoSession, TheLayoutOfTheViewsIsRememberedAndABrokenFileGivesTheDefault
   const ViewLayout layout{ViewLayout::Shown::kOverview, 0.6, true};
   WriteViewLayout(file, layout);
   EXPECT_EQ(ReadViewLayout(file), layout);
-  for (const char* text : {"", "{", "{\"overview_share\": \"wide\"}", "[]"}) {
+  for (const char* text : {"", "{", "{\"overview_share\": \"wide\"}", "[]", R"({"shown": "other"})",
+                           R"({"overview_share": 1e999})"}) {
     std::ofstream(file) << text;
     EXPECT_EQ(ReadViewLayout(file), ViewLayout()) << text;
   }
-  std::ofstream(file) << R"({"overview_share": 7, "swapped": false, "shown": "other"})";
-  EXPECT_EQ(ReadViewLayout(file).overview_share, ViewLayout::kMostShare);
+  std::ofstream(file) << R"({"overview_share": 7, "swapped": true, "shown": "scope"})";
+  EXPECT_EQ(ReadViewLayout(file),
+            (ViewLayout{ViewLayout::Shown::kScope, ViewLayout::kMostShare, true}));
 }
 
 TEST_F(UndoSession, WhatASceneLacksIsListedWithThePageThatMendsIt) {
