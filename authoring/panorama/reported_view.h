@@ -1,5 +1,5 @@
-// What a panorama's report says of its projection, and no more: reports of other programs that
-// have these entries are accepted too. Whole reports: report_io.h.
+// Projection that a panorama's report states, and no more: reports of other programs that have
+// these entries are accepted too. Whole reports: report_io.h.
 #pragma once
 
 #include <filesystem>

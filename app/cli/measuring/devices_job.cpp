@@ -18,6 +18,7 @@
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/measuring/device_words.h"
+#include "app/cli/measuring/first_hour_job.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/device/live/device_survey.h"
@@ -31,9 +32,9 @@ using namespace simulation;
 constexpr auto kWatchEvery = std::chrono::milliseconds(500);
 
 struct DevicesArguments {
-  std::string json, model, log;
+  std::string json, model, log, serial, record;
   std::vector<std::string> openhaptics;
-  bool watches = false, tries = false;
+  bool watches = false, tries = false, walks = false;
   double seconds = 0;
 };
 
@@ -190,7 +191,32 @@ class Lister {
   std::string text_;
 };
 
-void List(HidBus& bus, const DevicesArguments& arguments) { Lister(bus, arguments).Run(); }
+void Run(HidBus& bus, const DevicesArguments& arguments) {
+  if (arguments.walks)
+    WalkFirstHour(bus, {arguments.serial, arguments.record, arguments.model, arguments.openhaptics},
+                  TerminalProgress());
+  else if (arguments.watches)
+    Watch(bus, arguments);
+  else
+    Lister(bus, arguments).Run();
+}
+
+// The walk of the first hour and what belongs to it.
+void AddFirstHour(CLI::App& job, const std::shared_ptr<DevicesArguments>& own, JobFiles& files) {
+  auto* walk = job.add_flag("--first-hour", own->walks,
+                            "Walk through six steps with a new force device: zero force, "
+                            "direction, scale, limit, loss, stop. The walk gives small forces.");
+  for (const char* other : {"--watch", "--self-test", "--json"})
+    walk->excludes(job.get_option(other));
+  job.add_option("--serial", own->serial,
+                 "Serial number of the device of the walk. Default: the only force device.")
+      ->needs(walk);
+  files
+      .Output(
+          job.add_option("--record", own->record, "Page of the walk's results, to print and sign."),
+          {"a page of the first hour", FileForm::kUnique})
+      ->needs(walk);
+}
 
 void CheckModel(const std::string& model) {
   if (model.empty() || FindWoodenModel(model) != nullptr) return;
@@ -228,6 +254,7 @@ void AddDevicesJob(CLI::App& program) {
                                "Log of each report of the self-test with its interpretation."),
                kLogFile)
       ->needs(tries);
+  AddFirstHour(*job, own, *files);
   AddNumberOption(*job, "--seconds", {{0.1, 3600.0}, "s"},
                   "Time to watch, or to listen to each device.",
                   [own](double seconds) { own->seconds = seconds; });
@@ -241,7 +268,7 @@ void AddDevicesJob(CLI::App& program) {
     CheckModel(own->model);
     files->EmptyLog(own->log);
     const auto bus = MachineHidBus();
-    own->watches ? Watch(*bus, *own) : List(*bus, *own);
+    Run(*bus, *own);
   });
 }
 

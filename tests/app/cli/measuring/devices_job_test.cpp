@@ -1,4 +1,5 @@
 // On any machine: whether it has devices or not is not the test's affair.
+#include <filesystem>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 
 #include "simulation/device/hid/hid_node.h"
 #include "tests/support/run_program.h"
+#include "tests/support/temp_folder.h"
 
 namespace arthro::test {
 namespace {
@@ -53,7 +55,20 @@ TEST(DevicesJob, WithoutTheMakersLibrarySaysWhatATouchNeeds) {
       << named.err;
 }
 
+TEST(DevicesJob, TheFirstHourWithoutAForceDeviceIsRefusedAndWritesNothing) {
+  const TempFolder temp;
+  const auto page = temp / "page.txt";
+  const ProgramResult run =
+      RunProgram("devices --first-hour --serial nobody --record " + page.string());
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("--serial nobody"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(page));
+}
+
 TEST(DevicesJob, RefusesFlagsThatContradict) {
+  EXPECT_EQ(RunProgram("devices --first-hour --self-test").exit_code, 2);
+  EXPECT_EQ(RunProgram("devices --record page.txt").exit_code, 2);
+  EXPECT_EQ(RunProgram("devices --serial 7").exit_code, 2);
   EXPECT_EQ(RunProgram("devices --watch --self-test").exit_code, 2);
   EXPECT_EQ(RunProgram("devices --seconds -1").exit_code, 2);
 }
