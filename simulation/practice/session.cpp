@@ -57,6 +57,10 @@ double GiveAlong(const ToolCoupling& coupling, const glm::dvec3& force) noexcept
   return stiffness > 0 ? glm::dot(force, force) / stiffness : 0.0;
 }
 
+// A tip outside of its incision has a rod that points out of the joint (scope/rod_pose.h), whose
+// shaft must not reach through the joint.
+bool IsInJoint(const ToolState& state) noexcept { return state.pose.depth > 0.0; }
+
 // Larger than the displacement of soft tissue by a tool.
 constexpr double kHeldFromAfar = 5e-3;  // m
 
@@ -246,7 +250,7 @@ LayerHold Session::FeelLayers(Tool& tool, const glm::dvec3& portal, const glm::d
                               double stiffness, const ToolState& state) const noexcept {
   LayerHold hold;
   hold.tip = held;
-  if (layers_.empty()) return hold;
+  if (layers_.empty() || !IsInJoint(state)) return hold;
   // Pose as drawn: turned by the tip of the last tick, and moved along from there.
   const glm::dvec3 before = tool.let_be.value_or(portal);
   ToolInput as_drawn;
@@ -404,7 +408,7 @@ void Session::TickTissues(double dt) noexcept {
   if (!tissues_) return;
   Instrumentation hand;
   hand.kind = kind_;
-  hand.now.is_present = instrument_.contact.has_started;
+  hand.now.is_present = instrument_.contact.has_started && IsInJoint(state);
   hand.now.portal_from_tool =
       PortalFromTool({spacing_, 0.0, 0.0}, state.tissue_tip_in_portal, state.pose.roll);
   hand.now.opening = state.opening;
