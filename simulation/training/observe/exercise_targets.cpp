@@ -32,11 +32,12 @@ std::optional<TargetPlace> PlaceOfRegions(const LoadedScene& loaded, int tissue,
   return place;
 }
 
-std::optional<TargetPlace> PlaceOf(const LoadedScene& loaded, const ExerciseTarget& target) {
+std::optional<TargetPlace> PlaceOf(const LoadedScene& loaded, const DepthField& relief,
+                                   const ExerciseTarget& target) {
   const int tissue = TissueOf(loaded.scene, target.on);
   switch (KindOf(target)) {
     case TargetKind::kBearing:
-      return TargetOnBearing(loaded, target.bearing->x, target.bearing->y, target.radius);
+      return TargetOnBearing(loaded, relief, target.bearing->x, target.bearing->y, target.radius);
     case TargetKind::kPoint:
       if (tissue < 0) return std::nullopt;
       return TargetOnTissue(loaded, tissue, *target.point, target.radius);
@@ -52,8 +53,9 @@ std::optional<TargetPlace> PlaceOf(const LoadedScene& loaded, const ExerciseTarg
 
 std::vector<TargetPlace> PlacesOfTargets(const LoadedScene& loaded, const Exercise& exercise) {
   std::vector<TargetPlace> places;
+  const DepthField relief = ReliefOf(loaded);
   for (const ExerciseTarget& target : exercise.targets) {
-    const auto place = PlaceOf(loaded, target);
+    const auto place = PlaceOf(loaded, relief, target);
     if (!place)
       throw Error(Code::kBadScene,
                   fmt::format("target \"{}\" of exercise \"{}\" lies on no surface of this scene; "

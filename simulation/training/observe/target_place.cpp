@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/segment3.h"
-#include "simulation/haptics/relief/depth_field.h"
 #include "simulation/practice/cut_skin.h"
 #include "simulation/scene/mesh/surface_finder.h"
 #include "simulation/scope/rod_pose.h"
@@ -31,6 +30,8 @@ glm::dvec3 NormalOf(const TriangleCorners& corner) {
   return area > 0 ? across / area : glm::dvec3(0.0);
 }
 
+}  // namespace
+
 DepthField ReliefOf(const LoadedScene& loaded) {
   const Backdrop& backdrop = loaded.scene.backdrop;
   if (const DepthMap& depth = OrEmpty(loaded.depth); !depth.empty())
@@ -39,15 +40,17 @@ DepthField ReliefOf(const LoadedScene& loaded) {
   return {backdrop, panorama.width, panorama.height};
 }
 
-}  // namespace
-
 std::optional<TargetPlace> TargetOnBearing(const LoadedScene& loaded, double latitude,
                                            double longitude, double radius) {
+  return TargetOnBearing(loaded, ReliefOf(loaded), latitude, longitude, radius);
+}
+
+std::optional<TargetPlace> TargetOnBearing(const LoadedScene& loaded, const DepthField& relief,
+                                           double latitude, double longitude, double radius) {
   const glm::dvec3 way = BasisOf({latitude, longitude, 0, 0}).axis;
   std::optional<TargetPlace> first;
   double reach = loaded.scene.backdrop.radius;
   // The clearance falls along the ray, on which all points have one pixel of the relief.
-  const DepthField relief = ReliefOf(loaded);
   if (relief.Query(0.5 * reach * way).weight > 0) {
     double free = 0, behind = reach * (1 + 1e-9);
     for (int i = 0; i < 60; ++i) {

@@ -1,13 +1,11 @@
 #include "simulation/training/robot/pose_search.h"
 
 #include <cmath>
-#include <vector>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "simulation/haptics/proxy.h"
-#include "simulation/scope/window_lens.h"
-#include "simulation/training/observe/observer.h"
 
 namespace arthro::simulation {
 namespace {
@@ -16,6 +14,7 @@ constexpr double kRollStep = 30.0 * kRadianPerDegree;
 constexpr int kRolls = 12;
 constexpr double kFirstInsertion = 2e-3, kInsertionStep = 3e-3;  // m
 constexpr int kInsertions = 9;
+constexpr double kBeside = 1e-4;   // m, of an eye from its tip
 constexpr double kSteepest = 1.3;  // rad, of latitude and longitude
 
 // Place of a point in the picture of a scope at `pose`, in radii of the picture.
@@ -65,40 +64,96 @@ AttemptFrame FrameAt(const RodPose& pose, double view_angle) {
 
 }  // namespace
 
+PoseSearch::PoseSearch(const LoadedScene& loaded, std::vector<TargetPlace> targets,
+                       double view_angle, const DepthField& relief, const ScopeEye& eye,
+                       double shaft_radius, ScopeEye* trial)
+    : optics_(OpticsOf(loaded.scene.scope, loaded.lens)),
+      view_angle_(view_angle),
+      shaft_radius_(shaft_radius),
+      count_(static_cast<int>(targets.size())),
+      relief_(relief),
+      observer_(loaded, std::move(targets), relief, eye),
+      trial_(trial) {
+  for (std::size_t i = 0; i < loaded.scene.tissues.size() && i < loaded.surfaces.size(); ++i)
+    tissues_.emplace_back(OrEmpty(loaded.surfaces[i]), loaded.scene.tissues[i].pose);
+  AttemptFrame frame;
+  observer_.Observe(frame);
+  rest_ = frame.sight;
+}
+
+glm::dvec3 PoseSearch::Place(int target) const {
+  return glm::dvec3(rest_.target[static_cast<std::size_t>(target)].place);
+}
+
+std::optional<RodPose> PoseSearch::Centred(RodPose pose, const glm::dvec3& x) const {
+  return Centre(optics_, view_angle_, x, pose) ? std::optional(pose) : std::nullopt;
+}
+
+Observation PoseSearch::See(const RodPose& pose) const {
+  AttemptFrame frame = FrameAt(pose, view_angle_);
+  observer_.Observe(frame);
+  return frame.sight;
+}
+
+bool PoseSearch::IsFree(const RodPose& pose) const {
+  const glm::dvec3 tip = TipInOwnPortal(pose);
+  if (!IsWayFree({relief_, tissues_}, shaft_radius_, glm::dvec3(0.0), tip)) return false;
+  if (trial_ == nullptr) return true;
+  trial_->Leave();
+  trial_->MoveTo(pose, tip);
+  return glm::length(trial_->beside()) < kBeside;
+}
+
+std::optional<ScopeLook> PoseSearch::At(int target, double roll, double insertion) const {
+  const glm::dvec3 x = Place(target);
+  RodPose pose;
+  pose.latitude = std::asin(-x.y / glm::length(x));
+  pose.longitude = std::atan2(x.x, x.z);
+  pose.roll = roll;
+  pose.depth = insertion;
+  if (!Centre(optics_, view_angle_, x, pose)) return std::nullopt;
+  const PointSight sight = See(pose).target[static_cast<std::size_t>(target)];
+  if (!sight.is_clear || !IsFree(pose)) return std::nullopt;
+  return ScopeLook{pose, sight};
+}
+
+std::vector<double> PoseSearch::Rolls() {
+  std::vector<double> rolls;
+  for (int i = 0; i < kRolls; ++i) rolls.push_back(i * kRollStep);
+  return rolls;
+}
+
+std::vector<double> PoseSearch::Insertions() {
+  std::vector<double> insertions;
+  for (int i = 0; i < kInsertions; ++i) insertions.push_back(kFirstInsertion + i * kInsertionStep);
+  return insertions;
+}
+
+std::optional<RodPose> PoseSearch::Best(int target, const Cost& cost) const {
+  std::optional<RodPose> best;
+  double least = 0;
+  for (const double roll : Rolls())
+    for (const double insertion : Insertions()) {
+      const auto look = At(target, roll, insertion);
+      const auto value = look ? cost(*look) : std::nullopt;
+      if (!value || (best && *value >= least)) continue;
+      least = *value;
+      best = look->pose;
+    }
+  return best;
+}
+
 std::optional<RodPose> PoseThatSees(const LoadedScene& loaded, const TargetPlace& target,
                                     double view_angle, const DepthField& relief,
                                     const ScopeEye& eye, const PoseSearchOptions& options) {
-  const ScopeOptics optics = OpticsOf(loaded.scene.scope, loaded.lens);
-  const Observer observer(loaded, {target}, relief, eye);
-  AttemptFrame frame;
-  observer.Observe(frame);
-  const glm::dvec3 x(frame.sight.target[0].place);
-  std::vector<SurfaceBvh> tissues;
-  for (std::size_t i = 0; i < loaded.scene.tissues.size() && i < loaded.surfaces.size(); ++i)
-    tissues.emplace_back(OrEmpty(loaded.surfaces[i]), loaded.scene.tissues[i].pose);
-  const Surroundings around{relief, tissues};
-
-  std::optional<RodPose> best;
-  double least = options.most_incidence;
-  for (int roll = 0; roll < kRolls; ++roll)
-    for (int step = 0; step < kInsertions; ++step) {
-      RodPose pose;
-      pose.latitude = std::asin(-x.y / glm::length(x));
-      pose.longitude = std::atan2(x.x, x.z);
-      pose.roll = roll * kRollStep;
-      pose.depth = kFirstInsertion + step * kInsertionStep;
-      if (!Centre(optics, view_angle, x, pose)) continue;
-      frame = FrameAt(pose, view_angle);
-      observer.Observe(frame);
-      const PointSight& sight = frame.sight.target[0];
-      if (!sight.is_clear || sight.distance < options.nearest ||
-          sight.distance > options.farthest || sight.incidence > least)
-        continue;
-      if (!IsWayFree(around, options.shaft_radius, glm::dvec3(0.0), TipInOwnPortal(pose))) continue;
-      least = sight.incidence;
-      best = pose;
-    }
-  return best;
+  const PoseSearch search(loaded, {target}, view_angle, relief, eye, options.shaft_radius);
+  return search.Best(0, [&](const ScopeLook& look) -> std::optional<double> {
+    const PointSight& sight = look.sight;
+    if (sight.distance < options.nearest || sight.distance > options.farthest ||
+        sight.incidence > options.most_incidence)
+      return std::nullopt;
+    return sight.incidence;
+  });
 }
 
 }  // namespace arthro::simulation
