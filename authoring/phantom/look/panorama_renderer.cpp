@@ -15,6 +15,7 @@ namespace {
 // file.
 constexpr double kDepthStep = 0x1p-20;   // m
 constexpr double kSilhouette = 0.25e-3;  // m, least step of depth at a silhouette
+constexpr int kContrast = 16;            // grey levels of a channel to a neighbour, at an edge
 constexpr int kSubpixels = 3;            // per side
 
 double BedShareAt(const Cavity& cavity, const glm::dvec3& x) {
@@ -126,6 +127,39 @@ void PutColour(ColourImage& image, int x, int y, const glm::dvec3& colour) {
         static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(colour[i], 0.0, 1.0)));
 }
 
+// Marks the pixels that a single sample shows as stairs: at a change of surface, at a discontinuity
+// of depth (a steep slope is none), and at a step of colour, as along a crease, where two slopes
+// meet without a step of depth. Pixels that only copy another picture are left out, away from drawn
+// ones.
+std::vector<std::uint8_t> EdgesOf(const PhantomPicture& picture,
+                                  const std::vector<std::uint8_t>& is_drawn) {
+  const int width = picture.colour.width, height = picture.colour.height;
+  std::vector<std::uint8_t> is_edge(is_drawn.size(), 0);
+  const auto breaks = [&](std::size_t here, std::size_t step) {
+    const std::size_t next = here + step, last = here - step;
+    const auto& h = picture.depth.relief;
+    if (picture.surfaces[next] != picture.surfaces[here] ||
+        picture.surfaces[last] != picture.surfaces[here] ||
+        std::abs(h[next] - 2.0f * h[here] + h[last]) > kSilhouette)
+      return true;
+    const std::uint8_t* rgb = picture.colour.rgb.data();
+    for (int c = 0; c < 3; ++c)
+      if (std::abs(rgb[3 * next + c] - rgb[3 * here + c]) > kContrast ||
+          std::abs(rgb[3 * last + c] - rgb[3 * here + c]) > kContrast)
+        return true;
+    return false;
+  };
+  for (int y = 1; y < height - 1; ++y)
+    for (int x = 1; x < width - 1; ++x) {
+      const std::size_t here = static_cast<std::size_t>(y) * width + x,
+                        row = static_cast<std::size_t>(width);
+      const bool is_drawn_near = is_drawn[here] || is_drawn[here - 1] || is_drawn[here + 1] ||
+                                 is_drawn[here - row] || is_drawn[here + row];
+      is_edge[here] = is_drawn_near && (breaks(here, 1) || breaks(here, row));
+    }
+  return is_edge;
+}
+
 }  // namespace
 
 double ExposureOf(const PhantomView& view, const Projection& projection, int width, int height) {
@@ -180,26 +214,11 @@ PhantomPicture RenderPanorama(const PhantomView& view, const Projection& project
       }
     }
   });
-  // A silhouette is a change of surface or a discontinuity of depth; a steep slope is neither.
-  const auto on_silhouette = [&](int x, int y) {
-    const auto breaks = [&](int dx, int dy) {
-      const std::size_t here = index(x, y), next = index(x + dx, y + dy),
-                        last = index(x - dx, y - dy);
-      const auto& h = picture.depth.relief;
-      return picture.surfaces[next] != picture.surfaces[here] ||
-             picture.surfaces[last] != picture.surfaces[here] ||
-             std::abs(h[next] - 2.0f * h[here] + h[last]) > kSilhouette;
-    };
-    if (x == 0 || y == 0 || x == width - 1 || y == height - 1) return false;
-    return breaks(1, 0) || breaks(0, 1);
-  };
-  const auto is_drawn_near = [&](int x, int y) {
-    return is_drawn[index(x, y)] || is_drawn[index(x - 1, y)] || is_drawn[index(x + 1, y)] ||
-           is_drawn[index(x, y - 1)] || is_drawn[index(x, y + 1)];
-  };
+  // Marked before any pixel changes, so that the order of the rows does not matter.
+  const std::vector<std::uint8_t> is_edge = EdgesOf(picture, is_drawn);
   ForEachRow(height, threads, progress, stage, 0.6, 1.0, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      if (!on_silhouette(x, y) || !is_drawn_near(x, y)) continue;
+      if (!is_edge[index(x, y)]) continue;
       glm::dvec3 sum(0.0);
       for (int j = 0; j < kSubpixels; ++j)
         for (int i = 0; i < kSubpixels; ++i) {

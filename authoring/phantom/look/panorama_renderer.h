@@ -1,5 +1,5 @@
-// Draws the phantom as the panorama of a scene: colours antialiased at silhouettes, relief exact at
-// pixel centres.
+// Draws the phantom as the panorama of a scene: colours antialiased at silhouettes and creases,
+// relief exact at pixel centres.
 #pragma once
 
 #include <vector>
