@@ -198,7 +198,7 @@ Acceptance FileBrowserModel::AcceptOverwrite() {
 Acceptance FileBrowserModel::AcceptFolder() {
   const auto is_file = [](const FileEntry& entry) { return !entry.is_folder; };
   if (std::any_of(entries_.begin(), entries_.end(), is_file)) return Finish(folder_);
-  problem_ = "There is no such file in this folder; open one first.";
+  problem_ = "This folder has no file of the kind that is asked for; choose another folder.";
   return Acceptance::kNothing;
 }
 

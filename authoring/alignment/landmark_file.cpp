@@ -33,23 +33,15 @@ bool IsInPanorama(const glm::dvec2& pixel, const LoadedScene& scene) {
 }  // namespace
 
 PairsFile ParsePairs(const std::string& text, const std::filesystem::path& file) {
-  const nlohmann::json json = ParseJson(text, Code::kBadData, file);
-  RequireObject(json, "pairs of landmarks", file);
-  std::vector<JsonFault> faults;
-  JsonObjectReader reader(json, "", faults);
-  RequireSchema(reader, kSchema, file);
-  PairsFile pairs;
-  pairs.Visit(FieldReader(reader));
-  reader.RefuseOtherKeys(true);
-  for (std::size_t i = 0; i < pairs.pairs.size() && faults.empty(); ++i) {
-    const PairInFile& pair = pairs.pairs[i];
-    if (pair.panorama.has_value() + pair.scope.has_value() + pair.place.has_value() != 1) {
-      const std::string key = fmt::format("pairs[{}]", i);
-      faults.push_back({key, key + " must have one partner: panorama, scope or place"});
+  const auto check = [](JsonObjectReader& reader, const PairsFile& pairs) {
+    for (std::size_t i = 0; i < pairs.pairs.size(); ++i) {
+      const PairInFile& pair = pairs.pairs[i];
+      if (pair.panorama.has_value() + pair.scope.has_value() + pair.place.has_value() != 1)
+        return reader.Fault(fmt::format("pairs[{}]", i),
+                            "must have one partner: panorama, scope or place");
     }
-  }
-  if (!faults.empty()) throw Error(Code::kBadData, faults.front().sentence, file);
-  return pairs;
+  };
+  return FromJsonFile<PairsFile>(text, kSchema, "pairs of landmarks", file, check);
 }
 
 PairsFile ReadPairs(const std::filesystem::path& file) {

@@ -207,15 +207,7 @@ std::string NotesText(const PlacingNotes& notes) {
 }
 
 PlacingNotes NotesFromText(const std::string& text, const std::filesystem::path& file) {
-  const nlohmann::json json = ParseJson(text, Code::kBadData, file);
-  RequireObject(json, "notes of placing", file);
-  std::vector<JsonFault> faults;
-  JsonObjectReader reader(json, "", faults);
-  RequireSchema(reader, kSchema, file);
-  NotesInFile in_file;
-  in_file.Visit(FieldReader(reader));
-  reader.RefuseOtherKeys(true);
-  if (!faults.empty()) throw Error(Code::kBadData, faults.front().sentence, file);
+  NotesInFile in_file = FromJsonFile<NotesInFile>(text, kSchema, "notes of placing", file);
   PlacingNotes notes;
   for (LandmarksInFile& entry : in_file.landmarks) {
     for (PairInFile& pair : entry.pairs) entry.own.pairs.push_back(std::move(pair.pair));

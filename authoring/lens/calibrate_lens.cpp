@@ -321,9 +321,9 @@ class Calibration {
     }
     if (!(result_.rim_error_px < kHopeless * result_.rim_radius_px)) {
       Refuse(fmt::format(
-          "the pictures do not determine the lens: its error at the rim may be {:.0f} px. Take "
-          "pictures with the target tilted by 20 degrees and more, and filling the window",
-          std::min(result_.rim_error_px, 9999.0)));
+          "the pictures do not determine the lens: {}. Take pictures with the target tilted by 20 "
+          "degrees and more, and filling the window",
+          RimErrorInWords(result_.rim_error_px, result_.rim_radius_px)));
       return;
     }
     const bool single = used_.size() == 1;
@@ -424,6 +424,12 @@ const char* ToString(LensVerdict verdict) {
   return verdict == LensVerdict::kGood       ? "good"
          : verdict == LensVerdict::kDoubtful ? "doubtful"
                                              : "refused";
+}
+
+std::string RimErrorInWords(double rim_error_px, double rim_radius_px) {
+  return rim_error_px <= rim_radius_px
+             ? fmt::format("its error at the rim may be {:.0f} px", rim_error_px)
+             : "its error at the rim may be larger than the window itself";
 }
 
 LensCalibration CalibrateLens(const std::vector<TargetView>& views, cv::Size picture,

@@ -81,6 +81,9 @@ LensCalibration CalibrateLens(const std::vector<TargetView>& views, cv::Size pic
                               const LensCircle& circle, double spacing,
                               const CalibrateOptions& options, const Progress& progress);
 
+// Clause of a refusal; an error larger than the window has no digits worth stating.
+std::string RimErrorInWords(double rim_error_px, double rim_radius_px);
+
 const char* ToString(LensVerdict verdict);  // "good", "doubtful", "refused"
 
 }  // namespace arthro::authoring

@@ -1,4 +1,7 @@
 // Reading of a panorama's report (report_io.h).
+#include <array>
+#include <map>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -12,28 +15,60 @@ namespace {
 
 using Json = nlohmann::json;
 
-PinholeView ViewFromJson(const Json& json) {
-  return {json.at("width"), json.at("height"), json.at("focal_px"), json.at("cx"), json.at("cy")};
+// Fault of a report, in words that continue "this is no report of a panorama: ".
+struct ReportFault {
+  std::string words;
+};
+
+const Json& At(const Json& json, const char* key) {
+  if (!json.is_object()) throw ReportFault{fmt::format("\"{}\" stands in no object", key)};
+  const auto value = json.find(key);
+  if (value == json.end()) throw ReportFault{fmt::format("\"{}\" is missing", key)};
+  return *value;
+}
+
+template <class T>
+T Get(const Json& json, const char* key) {
+  try {
+    return At(json, key).get<T>();
+  } catch (const Json::exception&) {
+    throw ReportFault{fmt::format("\"{}\" is of the wrong kind", key)};
+  }
+}
+
+template <class T>
+T GetOr(const Json& json, const char* key, T otherwise) {
+  return json.is_object() && json.contains(key) ? Get<T>(json, key) : otherwise;
 }
 
 double NumberOr0(const Json& json, const char* key) {
-  const auto value = json.find(key);
-  return value == json.end() || value->is_null() ? 0.0 : value->get<double>();
+  return json.contains(key) && json.at(key).is_null() ? 0.0 : GetOr(json, key, 0.0);
+}
+
+const Json& ListOr(const Json& json, const char* key, const Json& otherwise) {
+  if (!json.contains(key)) return otherwise;
+  if (!At(json, key).is_array()) throw ReportFault{fmt::format("\"{}\" is no list", key)};
+  return At(json, key);
+}
+
+PinholeView ViewFromJson(const Json& json) {
+  return {Get<int>(json, "width"), Get<int>(json, "height"), Get<double>(json, "focal_px"),
+          Get<double>(json, "cx"), Get<double>(json, "cy")};
 }
 
 FrameReport FrameFromJson(const Json& json) {
   constexpr const char* kSkipped = "skipped: ";
   FrameReport frame;
-  frame.index = json.at("index");
-  frame.source = json.at("source");
-  frame.is_placed = json.at("status") == "placed";
-  frame.reason = json.at("reason");
+  frame.index = Get<int>(json, "index");
+  frame.source = Get<std::string>(json, "source");
+  frame.is_placed = At(json, "status") == "placed";
+  frame.reason = Get<std::string>(json, "reason");
   frame.is_usable = !frame.reason.starts_with(kSkipped);
   if (!frame.is_usable) frame.reason.erase(0, std::string_view(kSkipped).size());
-  frame.component = json.at("component");
-  if (const Json& place = json.at("panorama_from_rectified"); place.is_array())
-    frame.panorama_from_rectified = place.get<std::array<double, 9>>();
-  frame.inliers = json.at("inliers");
+  frame.component = Get<int>(json, "component");
+  if (At(json, "panorama_from_rectified").is_array())
+    frame.panorama_from_rectified = Get<std::array<double, 9>>(json, "panorama_from_rectified");
+  frame.inliers = Get<int>(json, "inliers");
   frame.rms_px = NumberOr0(json, "rms_px");
   frame.expected_error_px = NumberOr0(json, "expected_error_px");
   return frame;
@@ -44,53 +79,59 @@ void ReadPanorama(const Json& json, PanoramaReport& report) {
     report.panorama = ViewFromJson(json);
     return;
   }
-  report.panorama.width = json.at("width");
-  report.panorama.height = json.at("height");
-  report.relief_radius = json.at("radius");
-  const Json& over = json.at("projection");
+  report.panorama.width = Get<int>(json, "width");
+  report.panorama.height = Get<int>(json, "height");
+  report.relief_radius = Get<double>(json, "radius");
+  const Json& over = At(json, "projection");
   Projection& projection = report.over_relief.emplace();
   projection.type = ProjectionType::kEquirectangular;
-  projection.centre_px = {over.at("centre_px").at(0), over.at("centre_px").at(1)};
-  projection.px_per_deg = over.at("px_per_deg");
+  const auto centre = Get<std::array<double, 2>>(over, "centre_px");
+  projection.centre_px = {centre[0], centre[1]};
+  projection.px_per_deg = Get<double>(over, "px_per_deg");
 }
 
 PanoramaReport Read(const Json& json, const std::filesystem::path& file) {
+  const Json none = Json::array();
   PanoramaReport report;
-  report.footage = json.value("footage", "");
-  report.is_partial = json.at("status") == "partial";
-  report.summary = json.at("summary");
-  report.lens = LensFromJson(json.at("lens").dump(), file);
-  report.is_lens_guessed = json.value("lens_is_guessed", false);
-  if (json.contains("rectified")) report.rectified = ViewFromJson(json.at("rectified"));
-  ReadPanorama(json.at("panorama"), report);
+  report.footage = GetOr(json, "footage", std::string());
+  report.is_partial = At(json, "status") == "partial";
+  report.summary = Get<std::string>(json, "summary");
+  report.lens = LensFromJson(At(json, "lens").dump(), file);
+  report.is_lens_guessed = GetOr(json, "lens_is_guessed", false);
+  if (json.contains("rectified")) report.rectified = ViewFromJson(At(json, "rectified"));
+  ReadPanorama(At(json, "panorama"), report);
   report.mean_error_px = NumberOr0(json, "mean_error_px");
   report.max_error_px = NumberOr0(json, "max_error_px");
   report.drift_px = NumberOr0(json, "drift_px");
-  report.detector = json.value("detector", "");
-  report.seed = json.value("seed", 0);
-  report.warnings = json.value("warnings", std::vector<std::string>());
-  for (const Json& row : json.value("components", Json::array())) {
+  report.detector = GetOr(json, "detector", std::string());
+  report.seed = GetOr(json, "seed", 0);
+  report.warnings = GetOr(json, "warnings", std::vector<std::string>());
+  for (const Json& row : ListOr(json, "components", none)) {
     PieceReport& piece = report.pieces.emplace_back();
-    piece.component = row.at("component");
-    piece.frames = row.at("frames");
-    piece.file = row.at("file");
-    if (row.contains("panorama")) piece.panorama = ViewFromJson(row.at("panorama"));
+    piece.component = Get<int>(row, "component");
+    piece.frames = Get<int>(row, "frames");
+    piece.file = Get<std::string>(row, "file");
+    if (row.contains("panorama")) piece.panorama = ViewFromJson(At(row, "panorama"));
   }
-  for (const Json& row : json.value("clips", Json::array()))
-    report.clips.push_back({row.at("file"), row.at("first_frame"), row.at("frames"),
-                            row.at("usable"), row.at("placed")});
-  for (const Json& row : json.value("tied", Json::array()))
-    report.tied.push_back({row.at("index"), row.at("pairs"), row.at("rms_px"),
-                           row.at("expected_error_px"), row.at("refined")});
-  for (const Json& row : json.value("text_boxes", Json::array()))
-    report.text_boxes.push_back({row.at("x"), row.at("y"), row.at("width"), row.at("height")});
-  for (const Json& row : json.at("frames")) report.frames.push_back(FrameFromJson(row));
+  for (const Json& row : ListOr(json, "clips", none))
+    report.clips.push_back({Get<std::string>(row, "file"), Get<int>(row, "first_frame"),
+                            Get<int>(row, "frames"), Get<int>(row, "usable"),
+                            Get<int>(row, "placed")});
+  for (const Json& row : ListOr(json, "tied", none))
+    report.tied.push_back({Get<int>(row, "index"), Get<int>(row, "pairs"),
+                           Get<double>(row, "rms_px"), Get<double>(row, "expected_error_px"),
+                           Get<bool>(row, "refined")});
+  for (const Json& row : ListOr(json, "text_boxes", none))
+    report.text_boxes.push_back(
+        {Get<int>(row, "x"), Get<int>(row, "y"), Get<int>(row, "width"), Get<int>(row, "height")});
+  for (const Json& row : Get<Json::array_t>(json, "frames"))
+    report.frames.push_back(FrameFromJson(row));
   for (std::size_t i = 0; i < report.clips.size(); ++i)
     for (FrameReport& frame : report.frames)
       if (frame.index >= report.clips[i].first_frame) frame.clip = static_cast<int>(i);
-  const Json stages = json.value("stages_ms", Json::object());
-  for (const auto& [name, cost] : stages.items())
-    report.stages.push_back({name, cost.get<double>()});
+  using Costs = std::map<std::string, double>;
+  for (const auto& [name, cost] : GetOr(json, "stages_ms", Costs()))
+    report.stages.push_back({name, cost});
   report.peak_memory_mb = NumberOr0(json, "peak_memory_mb");
   return report;
 }
@@ -105,11 +146,11 @@ PanoramaReport ReportFromJson(const std::string& text, const std::filesystem::pa
     const auto ordered = ParseOrderedJson(text, Code::kBadData);
     if (ordered.contains("options")) report.options = ordered["options"].dump();
     return report;
-  } catch (const Json::exception& fault) {
+  } catch (const ReportFault& fault) {
     throw Error(Code::kBadData,
-                fmt::format("this is no report of a panorama ({}); choose the one that "
+                fmt::format("this is no report of a panorama: {}; choose the one that "
                             "`arthroscene panorama --report` wrote",
-                            fault.what()),
+                            fault.words),
                 file);
   }
 }

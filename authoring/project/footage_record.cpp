@@ -60,25 +60,15 @@ void ReplaceAll(std::string& text, const std::string& from, const std::string& t
 }  // namespace
 
 FootageRecord FootageFromJson(const std::string& text, const fs::path& file) {
-  const nlohmann::json json = ParseJson(text, Code::kBadData, file);
-  RequireObject(json, "a record of footage", file);
-  std::vector<JsonFault> faults;
-  JsonObjectReader reader(json, "", faults);
-  RequireSchema(reader, kSchema, file);
-  FootageRecord record;
-  record.Visit(FieldReader(reader));
-  if (record.clips.empty() && faults.empty())
-    reader.Fault("clips", "must list the clips of the panorama");
-  reader.Know(kReport);
-  if (const auto report = json.find(kReport); report != json.end()) {
-    if (report->is_object())
-      record.report = ParseOrderedJson(text, Code::kBadData)[kReport].dump(1) + "\n";
-    else
-      reader.Fault(kReport, "must be the report of a panorama");
-  }
-  reader.RefuseOtherKeys(true);
-  if (!faults.empty()) throw Error(Code::kBadData, faults.front().sentence, file);
-  return record;
+  const auto check = [&](JsonObjectReader& reader, FootageRecord& record) {
+    if (record.clips.empty()) return reader.Fault("clips", "must list the clips of the panorama");
+    reader.Know(kReport);
+    if (!reader.Has(kReport)) return;
+    const nlohmann::ordered_json report = ParseOrderedJson(text, Code::kBadData)[kReport];
+    if (!report.is_object()) return reader.Fault(kReport, "must be the report of a panorama");
+    record.report = report.dump(1) + "\n";
+  };
+  return FromJsonFile<FootageRecord>(text, kSchema, "a record of footage", file, check);
 }
 
 FootageRecord ReadFootage(const fs::path& file) {

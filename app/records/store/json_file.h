@@ -22,22 +22,6 @@ std::string JsonFileText(T value, const char* schema) {
   return json.dump(2) + "\n";
 }
 
-// `what`: the file in words, for its messages. Throws Error(kBadData) with the first fault.
-template <class T>
-T FromJsonFile(std::string_view text, const char* schema, const char* what,
-               const std::filesystem::path& file) {
-  const nlohmann::json json = ParseJson(text, Code::kBadData, file);
-  RequireObject(json, what, file);
-  std::vector<JsonFault> faults;
-  JsonObjectReader reader(json, "", faults);
-  RequireSchema(reader, schema, file);
-  T value;
-  value.Visit(FieldReader(reader));
-  reader.RefuseOtherKeys(true);
-  if (!faults.empty()) throw Error(Code::kBadData, faults[0].sentence, file);
-  return value;
-}
-
 template <class T>
 std::string JsonFileSchema(const char* schema, const char* title, const char* description) {
   return FileSchema(schema, title, description, SchemaOfFields(T())).dump(2) + "\n";

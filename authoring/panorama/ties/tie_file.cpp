@@ -19,24 +19,17 @@ constexpr const char* kSchema = "arthroscene.ties/1";
 }  // namespace
 
 std::vector<FrameTie> ParseTies(const std::string& text, const std::filesystem::path& file) {
-  const nlohmann::json json = ParseJson(text, Code::kBadData, file);
-  RequireObject(json, "tie points", file);
-  std::vector<JsonFault> faults;
-  JsonObjectReader reader(json, "", faults);
-  RequireSchema(reader, kSchema, file);
-  TiesFile ties;
-  ties.Visit(FieldReader(reader));
-  reader.RefuseOtherKeys(true);
-  for (std::size_t i = 0; i < ties.ties.size() && faults.empty(); ++i) {
-    const FrameTie& tie = ties.ties[i];
-    const std::string key = fmt::format("ties[{}]", i);
-    if (tie.other.has_value() == tie.panorama.has_value())
-      faults.push_back({key, key + " must have one partner: other or panorama"});
-    else if (tie.other && tie.other->frame == tie.frame)
-      faults.push_back({key, key + " joins a frame to itself; name another frame"});
-  }
-  if (!faults.empty()) throw Error(Code::kBadData, faults.front().sentence, file);
-  return ties.ties;
+  const auto check = [](JsonObjectReader& reader, const TiesFile& ties) {
+    for (std::size_t i = 0; i < ties.ties.size(); ++i) {
+      const FrameTie& tie = ties.ties[i];
+      const std::string key = fmt::format("ties[{}]", i);
+      if (tie.other.has_value() == tie.panorama.has_value())
+        return reader.Fault(key, "must have one partner: other or panorama");
+      if (tie.other && tie.other->frame == tie.frame)
+        return reader.Fault(key, "joins a frame to itself; name another frame");
+    }
+  };
+  return FromJsonFile<TiesFile>(text, kSchema, "tie points", file, check).ties;
 }
 
 std::vector<FrameTie> ReadTies(const std::filesystem::path& file) {

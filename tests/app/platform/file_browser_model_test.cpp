@@ -77,7 +77,8 @@ TEST_F(FileBrowser, AFolderOfFilesIsTakenWholeWhereItMayBe) {
   EXPECT_EQ(model.accepted(), fs::canonical(temp.path()));
   model.GoTo(temp / "zebra");
   EXPECT_EQ(model.AcceptFolder(), Acceptance::kNothing) << "there is nothing in it";
-  EXPECT_FALSE(model.problem().empty());
+  EXPECT_EQ(model.problem(),
+            "This folder has no file of the kind that is asked for; choose another folder.");
 }
 
 TEST_F(FileBrowser, AMissingFileIsRefusedWithASentenceThatNamesIt) {

@@ -1,6 +1,7 @@
 #include "authoring/lens/calibrate_lens.h"
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -181,6 +182,16 @@ TEST(CalibrateLens, RefusesWithAReason) {
   std::erase_if(line[0].points, [](const LatticePoint& p) { return p.j != 0; });
   EXPECT_EQ(Calibrate(line).verdict, LensVerdict::kRefused);
   EXPECT_THROW(CalibrateLens({}, kPicture, {}, 0, {}, {}), Error);
+}
+
+// An error larger than the window is no measurement of anything, and its digits are noise.
+TEST(CalibrateLens, StatesARimErrorOnlyWhereItIsKnown) {
+  EXPECT_EQ(RimErrorInWords(41.6, 300), "its error at the rim may be 42 px");
+  const std::string unknown = "its error at the rim may be larger than the window itself";
+  EXPECT_EQ(RimErrorInWords(301, 300), unknown);
+  EXPECT_EQ(RimErrorInWords(1e300, 300), unknown);
+  EXPECT_EQ(RimErrorInWords(std::numeric_limits<double>::infinity(), 300), unknown);
+  EXPECT_EQ(RimErrorInWords(std::numeric_limits<double>::quiet_NaN(), 300), unknown);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <rapidjson/stringbuffer.h>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -237,6 +238,35 @@ TEST(PanoramaReport, WhatIsReadIsWrittenAgainByteByByte) {
   EXPECT_EQ(JsonFromReport(ReportFromJson(relief)), relief);
   EXPECT_THROW(ReportFromJson("{}"), Error);
   EXPECT_THROW(ReportFromJson("[1"), Error);
+}
+
+// The sentence names the key in our words; the JSON library's own are for programmers.
+TEST(PanoramaReport, ThatCannotBeReadIsRefusedByTheNameOfTheKey) {
+  const auto whole = nlohmann::json::parse(JsonFromReport(SampleReport()));
+  const auto refusal = [](const nlohmann::json& json) {
+    try {
+      ReportFromJson(json.dump());
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("read");
+  };
+  EXPECT_EQ(refusal(whole), "read");
+  const std::string end = "; choose the one that `arthroscene panorama --report` wrote";
+  for (const auto& [path, value, words] :
+       std::vector<std::tuple<const char*, nlohmann::json, std::string>>{
+           {"/frames", 3, "\"frames\" is of the wrong kind"},
+           {"/frames/0", 3, "\"index\" stands in no object"},
+           {"/frames/0/index", "one", "\"index\" is of the wrong kind"},
+           {"/clips", "a.mp4", "\"clips\" is no list"},
+           {"/clips/0/usable", nullptr, "\"usable\" is of the wrong kind"},
+           {"/seed", "x", "\"seed\" is of the wrong kind"},
+           {"/stages_ms", {1, 2}, "\"stages_ms\" is of the wrong kind"},
+           {"/panorama", nlohmann::json::object(), "\"width\" is missing"}}) {
+    nlohmann::json broken = whole;
+    broken[nlohmann::json::json_pointer(path)] = value;
+    EXPECT_EQ(refusal(broken), "this is no report of a panorama: " + words + end) << path;
+  }
 }
 
 }  // namespace
