@@ -1,4 +1,5 @@
 // Practice: begin and leave it, the camera head, the instruments, the poke.
+#include <optional>
 #include <string>
 
 #include <GLFW/glfw3.h>
@@ -29,10 +30,26 @@ std::string SummaryOf(const simulation::Practice& practice) {
                      seconds / 60, seconds % 60, practice.peak_force(), removed * 1e9);
 }
 
+constexpr double kShortSession = 60;  // s; a longer one is not ended by one touch of a key
+constexpr double kAnswerTime = 10;    // s of the session for the second touch
+
+// Returns whether the session may end: a long one asks first, since its measurements end with it.
+bool MayLeave(State& state) {
+  std::optional<double>& asked = state.steps.practice->asked_to_leave;
+  const double now = state.practice->snapshot().t;
+  const bool has_answer = asked && *asked <= now && now - *asked <= kAnswerTime;
+  asked.reset();
+  if (now < kShortSession || has_answer) return true;
+  asked = now;
+  state.message = SummaryOf(*state.practice) + ". Leave once more to end the session.";
+  return false;
+}
+
 // A calibration first; an attempt at an exercise has an end of its own.
 void LeavePractice(State& state) {
   if (state.steps.practice->calibrating) return EndCalibration(state);
   if (const auto end_attempt = state.steps.practice->end_attempt) return end_attempt(state);
+  if (!MayLeave(state)) return;
   const double seconds = state.practice->snapshot().t;
   state.message = "Practice left. " + SummaryOf(*state.practice) + ".";
   state.practice.reset();

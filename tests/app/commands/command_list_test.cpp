@@ -572,6 +572,30 @@ TEST_F(Commands, PracticeLeavesTheEditorExactlyAsItWas) {
   EXPECT_EQ(state.scope.depth, scope.depth);
 }
 
+// One touch of Escape ended a session of seven minutes with everything that it had measured.
+TEST_F(Commands, ALongPracticeIsLeftByTheSecondTouchOnly) {
+  Open();
+  app::Run(state, "practise");
+  Settle(state);
+  ASSERT_TRUE(state.practice);
+  const auto practise = [this](double seconds) {
+    const double end = state.practice->snapshot().t + seconds;
+    while (state.practice->snapshot().t < end) state.practice->Advance(0.05);
+  };
+  practise(61);
+  app::Run(state, "leave-practice");
+  ASSERT_TRUE(state.practice) << "it asks first";
+  EXPECT_NE(state.message.find("It took 1:01 min"), std::string::npos) << state.message;
+  EXPECT_NE(state.message.find("Leave once more to end the session."), std::string::npos);
+  practise(11);
+  app::Run(state, "leave-practice");
+  ASSERT_TRUE(state.practice) << "the first touch was long ago";
+  practise(2);
+  app::Run(state, "leave-practice");
+  EXPECT_FALSE(state.practice);
+  EXPECT_NE(state.message.find("Practice left."), std::string::npos) << state.message;
+}
+
 TEST_F(Commands, BallsThatHoldATissueAreAddedMovedAndReleasedStepByStep) {
   Open();
   state.tissue = 0;
