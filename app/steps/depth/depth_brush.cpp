@@ -31,7 +31,22 @@ bool IsMadeAnew(const EditorState& state, const authoring::DepthStroke& stroke) 
          (authoring::IsMask(stroke) || state.steps.depth->cache.IsStale(state.document()));
 }
 
+MendedDepth CopyOf(const std::shared_ptr<const DepthMap>& depth,
+                   const std::shared_ptr<const DepthMap>& sigma,
+                   const std::shared_ptr<const OriginMap>& origin) {
+  return {*depth, OrEmpty(sigma), OrEmpty(origin)};
+}
+
+// The copy that was made while the button was down, where that is of the document as it is now.
+MendedDepth TakeCopy(const Document& document, DepthBrush& brush) {
+  if (brush.copy.valid() && brush.copy_of == document.depth) return brush.copy.get();
+  return CopyOf(document.depth, document.depth_sigma, document.depth_origin);
+}
+
 void BeginPreview(const Document& document, DepthBrush& brush) {
+  brush.copy_of = document.depth;
+  brush.copy = std::async(std::launch::async, CopyOf, document.depth, document.depth_sigma,
+                          document.depth_origin);
   const DepthMap& depth = *document.depth;
   const ColourImage& panorama = *document.panorama;
   brush.stride = (std::max(depth.width, depth.height) + kLongestPreview - 1) / kLongestPreview;
@@ -69,6 +84,8 @@ void EndPreview(DepthBrush& brush) {
   brush.stroke.points.clear();
   brush.growing.reset();
   brush.coarse_picture.reset();
+  brush.copy = {};
+  brush.copy_of.reset();
   brush.changed = brush.fresh = {};
   ++brush.version;
 }
@@ -168,19 +185,20 @@ void EndStroke(EditorState& state) {
   DepthBrush& brush = BrushOf(state);
   if (!brush.is_down()) return;
   const authoring::DepthStroke stroke = brush.stroke;
-  EndPreview(brush);
   const Document& document = state.document();
-  if (!Fits(document)) return;
+  if (!Fits(document)) return EndPreview(brush);
+  std::optional<MendedDepth> copy;
+  if (!IsMadeAnew(state, stroke)) copy = TakeCopy(document, brush);
+  EndPreview(brush);
   const std::string name = std::string("Mend depth: ") + WordOf(stroke.kind);
   const auto add = [&](Document& next) {
     next.depth_strokes = authoring::WithStroke(next.depth_strokes, stroke);
   };
-  if (IsMadeAnew(state, stroke)) {
+  if (!copy) {
     Edit(state, name, "", add);
     return;
   }
-  MendedDepth mended{*document.depth, OrEmpty(document.depth_sigma),
-                     OrEmpty(document.depth_origin)};
+  MendedDepth& mended = *copy;
   const Backdrop& backdrop = document.scene.backdrop;
   const authoring::StrokeReport report = authoring::ApplyStroke(
       stroke, {*document.panorama, backdrop.projection, backdrop.radius}, mended);
