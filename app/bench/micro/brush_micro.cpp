@@ -9,6 +9,7 @@
 
 #include "app/bench/micro/micro_bench.h"
 #include "app/view/backdrop/backdrop_texture.h"
+#include "app/view/backdrop/drawn_relief.h"
 #include "authoring/depth/depth_filter.h"
 #include "authoring/depth/depth_noise.h"
 #include "authoring/depth/strokes/growing_stroke.h"
@@ -58,6 +59,48 @@ double WorstOff(const DepthMap& a, const DepthMap& b) {
   return worst;
 }
 
+// The work between letting the button go and the first picture with the stroke. The copy of the
+// map, 64 MB, is there: it is made beside the window while the button is down (depth_brush.cpp).
+class Release {
+ public:
+  explicit Release(const Drawn& drawn)
+      : drawn_(drawn),
+        size_(drawn.panorama->width, drawn.panorama->height),
+        shown_(MakeDrawnRelief(size_, drawn.before.relief, drawn.before.sigma, drawn.backdrop,
+                               ReliefNoise::kKept)),
+        copy_(drawn.before) {}
+
+  // Waits for this: the tiles of the stroke.
+  StrokeReport OnWindowThread() {
+    const StrokeReport report = ApplyStroke(
+        stroke(), {*drawn_.panorama, drawn_.backdrop.projection, drawn_.backdrop.radius}, copy_);
+    is_raised_ = !is_raised_;
+    return report;
+  }
+  // Beside the window: the relief that is shown, moved by the stroke, and its textures.
+  DrawnRelief Beside() const {
+    const ReliefMaps before{drawn_.before.relief, drawn_.before.sigma},
+        after{copy_.relief, copy_.sigma};
+    return WithShift(shown_, size_, before, after, drawn_.backdrop,
+                     SmallChange(before, after).value_or(PixelBounds()));
+  }
+  const MendedDepth& map() const { return copy_; }
+
+ private:
+  // Every other call takes the stroke back, so that heights do not grow with the calls.
+  DepthStroke stroke() const {
+    DepthStroke stroke = drawn_.stroke;
+    if (is_raised_) stroke.kind = StrokeKind::kLower;
+    return stroke;
+  }
+
+  const Drawn& drawn_;
+  glm::ivec2 size_;
+  DrawnRelief shown_;
+  MendedDepth copy_;
+  bool is_raised_ = false;
+};
+
 MicroError ErrorOf(double metres) { return {1e6 * metres, fmt::format("{:.3g} um", 1e6 * metres)}; }
 
 }  // namespace
@@ -99,6 +142,22 @@ MicroGroup BrushMicro(bool quick) {
              {*drawn().panorama, drawn().backdrop.projection, drawn().backdrop.radius}, depth));
        },
        {}});
+  const auto release = MadeOnce([=] { return std::make_shared<Release>(drawn()); });
+  const auto error_of_release = [=] {
+    Release own(drawn());
+    own.OnWindowThread();
+    return ErrorOf(std::max(WorstOff(own.map().relief, drawn().after.relief),
+                            WorstOff(own.map().sigma, drawn().after.sigma)));
+  };
+  const std::string size = fmt::format("{}x{}", width, width / 2);
+  group.functions.push_back({"release at " + size,
+                             [=] {
+                               KeepAlive(release()->OnWindowThread());
+                               KeepAlive(release()->Beside());
+                             },
+                             error_of_release});
+  group.functions.push_back({"release at " + size + ", window's thread",
+                             [=] { KeepAlive(release()->OnWindowThread()); }, error_of_release});
   group.functions.push_back(
       {"rectangle that differs between two maps",
        [=] { KeepAlive(DifferenceOf(drawn().before.relief, drawn().after.relief)); },

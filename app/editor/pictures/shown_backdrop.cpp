@@ -8,78 +8,94 @@
 
 namespace arthro::app {
 
-std::shared_ptr<const DrawnRelief> ShownBackdrop::ReliefOf(const ReliefWork::Source& source,
-                                                           bool is_shown) {
+ShownBackdrop::Content ShownBackdrop::ContentOf(const EditorState& state) {
+  const authoring::Document& document = state.document();
+  const DepthCache& cache = state.steps.depth->cache;
+  Content content;
+  content.of = content.panorama = document.panorama;
+  content.depth = document.depth;
+  content.sigma = document.depth_sigma;
+  if (cache.preview && cache.preview_panorama) {
+    content.panorama = cache.preview_panorama;
+    content.depth = cache.preview;
+    content.sigma = nullptr;
+  }
+  content.reach = ReachPictureOf(state);
+  content.backdrop = document.scene.backdrop;
+  content.is_as_filmed = state.steps.portals->shows_as_filmed && !state.practice;
+  return content;
+}
+
+Backdrop ShownBackdrop::Drawn(const Content& wanted) {
+  Backdrop drawn = WithKnownLight(wanted.backdrop, OrEmpty(wanted.depth));
+  if (wanted.is_as_filmed) drawn.relight = 0;
+  if (wanted.panorama != wanted.of)
+    drawn.projection =
+        Shrunk(drawn.projection, static_cast<double>(wanted.of->width) / wanted.panorama->width);
+  return drawn;
+}
+
+std::shared_ptr<const DrawnRelief> ShownBackdrop::NoisyRelief(const ReliefWork::Source& source,
+                                                              bool is_shown) {
   if (auto made = work_.Find(source)) {
     awaited_.reset();
     return made;
   }
-  const ReliefMaps after{*source.depth, *source.sigma};
   if (is_shown) {
-    const ReliefMaps before{OrEmpty(depth_), OrEmpty(sigma_)};
-    const auto changed = relief_ ? SmallChange(before, after) : std::nullopt;
-    if (!changed) return nullptr;
-    awaited_ = source;
-    return std::make_shared<const DrawnRelief>(
-        WithShift(*relief_, source.panorama_size, before, after, source.backdrop, *changed));
+    if (!relief_) return nullptr;
+    const ReliefWork::Source before{shown_.depth, shown_.sigma, source.panorama_size,
+                                    source.backdrop};
+    auto shifted = work_.FindShifted(source, before, relief_);
+    if (shifted) awaited_ = source;
+    return shifted;
   }
   awaited_ = source;
   return std::make_shared<const DrawnRelief>(MakeDrawnRelief(
-      source.panorama_size, after.depth, after.sigma, source.backdrop, ReliefNoise::kKept));
+      source.panorama_size, *source.depth, *source.sigma, source.backdrop, ReliefNoise::kKept));
+}
+
+bool ShownBackdrop::TakeRelief(const Content& wanted, const Backdrop& drawn) {
+  if (!wanted.panorama || !wanted.depth || !wanted.sigma) {
+    awaited_.reset();
+    relief_ = nullptr;
+    return true;
+  }
+  const bool is_shown =
+      shown_.of == wanted.of && shown_.reach == wanted.reach && wanted.HasPlaceOf(shown_);
+  auto made = NoisyRelief(
+      {wanted.depth, wanted.sigma, {wanted.panorama->width, wanted.panorama->height}, drawn},
+      is_shown);
+  if (!made) return false;
+  relief_ = std::move(made);
+  return true;
 }
 
 bool ShownBackdrop::Take(const EditorState& state, ArthroscopicView& scope, Overview& overview) {
-  const authoring::Document& document = state.document();
-  const DepthCache& cache = state.steps.depth->cache;
-  const bool preview = cache.preview && cache.preview_panorama;
-  const auto& panorama = preview ? cache.preview_panorama : document.panorama;
-  const auto& depth = preview ? cache.preview : document.depth;
-  const std::shared_ptr<const DepthMap> sigma = preview ? nullptr : document.depth_sigma;
-  const DepthMap& relief = OrEmpty(depth);
-  const Backdrop& wanted = document.scene.backdrop;
-  const bool as_filmed = state.steps.portals->shows_as_filmed && !state.practice;
-  const bool same_place = backdrop_ == wanted && as_filmed == as_filmed_;
-  const std::shared_ptr<const ColourImage> reach = ReachPictureOf(state);
-  const bool same_reach = reach == reach_;
-  const bool same_panorama = panorama == panorama_ && panorama;
-  const bool same_depth = depth == depth_ && sigma == sigma_;
-  const bool same_scene = panorama == panorama_ && same_depth && same_place;
-  if (same_scene && same_reach) return TakeQuietRelief(scope);
-  Backdrop shown = WithKnownLight(wanted, relief);
-  if (as_filmed) shown.relight = 0;
-  if (preview)
-    shown.projection =
-        Shrunk(shown.projection, static_cast<double>(document.panorama->width) / panorama->width);
+  const Content wanted = ContentOf(state);
+  if (wanted == shown_) return TakeQuietRelief(scope);
+  const Backdrop drawn = Drawn(wanted);
   // The panorama is by far the most to upload; a slider changes only its place or the relief.
-  const bool is_kept = same_scene || (same_panorama && scope.SetGeometry(shown));
-  if (!is_kept || !same_depth) {
-    std::shared_ptr<const DrawnRelief> made;
-    if (panorama && depth && sigma) {
-      const bool is_shown = shown_of_ == document.panorama && same_place && same_reach;
-      made = ReliefOf({depth, sigma, {panorama->width, panorama->height}, shown}, is_shown);
-      if (!made) return false;
-    } else {
-      awaited_.reset();
-    }
-    relief_ = made;
-  }
-  panorama_ = panorama;
-  shown_of_ = document.panorama;
-  depth_ = depth;
-  sigma_ = sigma;
-  backdrop_ = wanted;
-  as_filmed_ = as_filmed;
-  reach_ = reach;
-  if (!panorama) return true;
-  const ColourImage& coloured = reach && !preview ? *reach : *panorama;
-  if (!is_kept)
-    scope.SetBackdrop(*panorama, relief, shown, OrEmpty(sigma), relief_.get());
-  else if (!same_depth)
-    scope.SetDepth(relief, OrEmpty(sigma), relief_.get());
-  if (is_kept && same_reach)
-    overview.SetRelief(relief, shown);
+  const bool has_same_relief = wanted.HasReliefOf(shown_);
+  const bool has_same_panorama = wanted.panorama && wanted.panorama == shown_.panorama;
+  const bool keeps_panorama =
+      has_same_panorama &&
+      ((has_same_relief && wanted.HasPlaceOf(shown_)) || scope.SetGeometry(drawn));
+  if ((!keeps_panorama || !has_same_relief) && !TakeRelief(wanted, drawn)) return false;
+  const bool has_same_reach = wanted.reach == shown_.reach;
+  shown_ = wanted;
+  if (!wanted.panorama) return true;
+
+  const DepthMap &relief = OrEmpty(wanted.depth), &sigma = OrEmpty(wanted.sigma);
+  if (!keeps_panorama)
+    scope.SetBackdrop(*wanted.panorama, relief, drawn, sigma, relief_.get());
+  else if (!has_same_relief)
+    scope.SetDepth(relief, sigma, relief_.get());
+  const bool is_preview = wanted.panorama != wanted.of;
+  if (keeps_panorama && has_same_reach)
+    overview.SetRelief(relief, drawn);
   else
-    overview.SetBackdrop(coloured, relief, shown);
+    overview.SetBackdrop(wanted.reach && !is_preview ? *wanted.reach : *wanted.panorama, relief,
+                         drawn);
   return true;
 }
 
@@ -90,7 +106,7 @@ bool ShownBackdrop::TakeQuietRelief(ArthroscopicView& scope) {
   if (!made) return false;
   awaited_.reset();
   relief_ = made;
-  scope.SetDepth(OrEmpty(depth_), OrEmpty(sigma_), made.get());
+  scope.SetDepth(OrEmpty(shown_.depth), OrEmpty(shown_.sigma), made.get());
   return true;
 }
 

@@ -18,24 +18,41 @@ class ShownBackdrop {
   // Takes over what was made beside the window.
   bool Collect() { return work_.Collect(); }
   bool busy() const { return work_.busy(); }
-  bool has_panorama() const { return panorama_ != nullptr; }
+  bool has_panorama() const { return shown_.panorama != nullptr; }
   // Returns whether a picture changes.
   bool Take(const EditorState& state, ArthroscopicView& scope, Overview& overview);
 
  private:
-  bool TakeQuietRelief(ArthroscopicView& scope);
-  // The relief of `source`, of a panorama that is shown anew or not. Null: the last one stays.
-  std::shared_ptr<const DrawnRelief> ReliefOf(const ReliefWork::Source& source, bool is_shown);
+  // Everything that the pictures depend on; parts are compared by identity.
+  struct Content {
+    std::shared_ptr<const ColourImage> panorama;  // the document's, or a preview of it
+    std::shared_ptr<const ColourImage> of;        // panorama of the document
+    std::shared_ptr<const DepthMap> depth, sigma;
+    std::shared_ptr<const ColourImage> reach;  // null: the panorama as it is
+    Backdrop backdrop;
+    bool is_as_filmed = false;
+    bool HasPlaceOf(const Content& other) const {
+      return backdrop == other.backdrop && is_as_filmed == other.is_as_filmed;
+    }
+    bool HasReliefOf(const Content& other) const {
+      return depth == other.depth && sigma == other.sigma;
+    }
+    friend bool operator==(const Content&, const Content&) = default;
+  };
+  static Content ContentOf(const EditorState& state);
+  // The backdrop as it is drawn: its light as it is known, its projection that of a preview.
+  static Backdrop Drawn(const Content& wanted);
 
-  std::shared_ptr<const ColourImage> panorama_;
-  std::shared_ptr<const ColourImage> shown_of_;  // panorama of the document at that time
-  std::shared_ptr<const DepthMap> depth_, sigma_;
+  // Makes the relief of the content. False: it is being made, and the last one stays.
+  bool TakeRelief(const Content& wanted, const Backdrop& drawn);
+  // The relief of a noisy map; null: the last one stays.
+  std::shared_ptr<const DrawnRelief> NoisyRelief(const ReliefWork::Source& source, bool is_shown);
+  bool TakeQuietRelief(ArthroscopicView& scope);
+
+  Content shown_;
   std::shared_ptr<const DrawnRelief> relief_;  // relief of a noisy map; null: not kept
   ReliefWork work_;
   std::optional<ReliefWork::Source> awaited_;  // whose relief is shown with its noise
-  std::shared_ptr<const ColourImage> reach_;   // null: the panorama as it is
-  Backdrop backdrop_;
-  bool as_filmed_ = false;
 };
 
 }  // namespace arthro::app

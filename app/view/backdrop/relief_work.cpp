@@ -27,21 +27,43 @@ DrawnRelief Make(const Source& source, const Source& before, const DrawnRelief* 
 
 }  // namespace
 
-std::shared_ptr<const DrawnRelief> ReliefWork::Find(const Source& source) {
-  if (made_ && source_ == source) return made_;
-  if (busy()) return nullptr;
-  wanted_ = source;
-  work_ = std::async(std::launch::async, [source, before = source_, made = made_, stop = &stop_] {
-    return Make(source, before, made.get(), stop);
-  });
+std::shared_ptr<const DrawnRelief> ReliefWork::Slot::Find(
+    const Source& asked, const std::function<std::shared_ptr<const DrawnRelief>()>& make) {
+  if (source == asked) return made;
+  if (work.valid()) return nullptr;
+  wanted = asked;
+  work = std::async(std::launch::async, make);
   return nullptr;
 }
 
-bool ReliefWork::Collect() {
-  if (!busy() || work_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
-  made_ = std::make_shared<const DrawnRelief>(work_.get());
-  source_ = std::exchange(wanted_, {});
+bool ReliefWork::Slot::Collect() {
+  if (!work.valid() || work.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return false;
+  made = work.get();
+  source = std::exchange(wanted, {});
   return true;
+}
+
+std::shared_ptr<const DrawnRelief> ReliefWork::Find(const Source& source) {
+  return quiet_.Find(source, [source, before = quiet_.source, made = quiet_.made, stop = &stop_] {
+    return std::make_shared<const DrawnRelief>(Make(source, before, made.get(), stop));
+  });
+}
+
+std::shared_ptr<const DrawnRelief> ReliefWork::FindShifted(
+    const Source& source, const Source& before, const std::shared_ptr<const DrawnRelief>& made) {
+  return shifted_.Find(source, [source, before, made]() -> std::shared_ptr<const DrawnRelief> {
+    const auto changed = SmallChange(MapsOf(before), MapsOf(source));
+    if (!changed) return nullptr;
+    return std::make_shared<const DrawnRelief>(WithShift(
+        *made, source.panorama_size, MapsOf(before), MapsOf(source), source.backdrop, *changed));
+  });
+}
+
+bool ReliefWork::Collect() {
+  const bool is_shifted = shifted_.Collect(), is_quiet = quiet_.Collect();
+  if (quiet_.source == shifted_.source) shifted_.made = nullptr;  // it is not asked for any more
+  return is_shifted || is_quiet;
 }
 
 }  // namespace arthro::app

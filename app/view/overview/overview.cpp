@@ -54,6 +54,14 @@ void Overview::Parts::FitShorterSide() {
   camera->SetViewAngle(width < height ? 39.0 : 32.0);
 }
 
+void Overview::Parts::ScaleLabels(double scale) {
+  if (scale == label_scale) return;
+  label_scale = scale;
+  for (const auto& label : labels)
+    label->GetTextProperty()->SetFontSize(static_cast<int>(std::lround(kLabelSize * scale)));
+  changed = true;
+}
+
 void Overview::Parts::BuildScene() {
   window->AddRenderer(renderer);
   window->SetSize(16, 16);
@@ -95,6 +103,7 @@ void Overview::Parts::BuildScene() {
   }
   renderer->AddActor(scope_label);
   renderer->AddActor(instrument_label);
+  labels = {scope_label, instrument_label};
 
   // Axes of the portal frame, below everything.
   const glm::dvec3 origin{-0.016, 0.034, 0.0};
@@ -113,6 +122,7 @@ void Overview::Parts::BuildScene() {
     if (i > 0) text->SetJustificationToCentered();
     renderer->AddActor(axis);
     renderer->AddActor(label);
+    labels.push_back(label);
   }
 }
 
@@ -310,6 +320,7 @@ bool Overview::Render(int width, int height) {
     p.FitShorterSide();
     p.changed = true;
   }
+  p.ScaleLabels(handle_scale);
   if (!p.changed) return false;
   p.changed = false;
   p.window->GetState()->Reset();  // other code has drawn in this context

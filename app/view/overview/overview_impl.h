@@ -56,6 +56,8 @@ struct Overview::Parts {
   vtkSmartPointer<vtkBillboardTextActor3D> scope_label = MakeLabel("scope", kScopeColour);
   vtkSmartPointer<vtkBillboardTextActor3D> instrument_label =
       MakeLabel("instrument", kInstrumentColour);
+  std::vector<vtkSmartPointer<vtkBillboardTextActor3D>> labels;  // all of them
+  double label_scale = 1;  // pixels of the picture per pixel at scale 1
 
   // Translucent, so that their contents are seen.
   vtkSmartPointer<vtkActor> held = MakeActor({0.35, 0.65, 0.95});
@@ -96,6 +98,7 @@ struct Overview::Parts {
   glm::dvec3 MiddleOf(const Model& model) const;         // portal frame
   glm::dvec3 ArmOf(const Model& model, int axis) const;  // from its middle to the arm's end
   void FitShorterSide();
+  void ScaleLabels(double scale);
 };
 
 }  // namespace arthro::app

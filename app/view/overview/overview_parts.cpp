@@ -222,7 +222,7 @@ vtkSmartPointer<vtkBillboardTextActor3D> MakeLabel(const std::string& text,
   auto label = vtkSmartPointer<vtkBillboardTextActor3D>::New();
   label->SetInput(text.c_str());
   vtkTextProperty* property = label->GetTextProperty();
-  property->SetFontSize(15);
+  property->SetFontSize(kLabelSize);
   property->SetColor(colour.x, colour.y, colour.z);
   property->SetBackgroundColor(0.10, 0.11, 0.13);  // readable over any tissue
   property->SetBackgroundOpacity(1.0);

@@ -56,6 +56,7 @@ std::vector<std::vector<glm::dvec3>> ViewConeLines(const simulation::ScopeView& 
 vtkSmartPointer<vtkActor> MakeActor(const glm::dvec3& colour, double ambient = 0.25);
 void SetData(vtkActor& actor, vtkPolyData* data);
 
+inline constexpr int kLabelSize = 15;  // px at scale 1
 vtkSmartPointer<vtkBillboardTextActor3D> MakeLabel(const std::string& text,
                                                    const glm::dvec3& colour);
 

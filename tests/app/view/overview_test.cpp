@@ -80,6 +80,29 @@ TEST_F(OverviewTest, DrawsOnlyWhenSomethingChanged) {
   EXPECT_TRUE(overview_->Render(kSize, kSize - 1)) << "no such tissue: none is chosen";
 }
 
+// On a screen with an interface scale of 2 the labels were half as large as all other text.
+TEST_F(OverviewTest, LabelsGrowWithTheInterfaceScale) {
+  // Pixels of the background of the labels, which nothing else has.
+  const auto label_pixels = [this] {
+    const ColourImage picture = overview_->ReadPixels();
+    int count = 0;
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x) {
+        const auto* rgb = picture.at(x, y);
+        count +=
+            std::abs(rgb[0] - 25) < 2 && std::abs(rgb[1] - 28) < 2 && std::abs(rgb[2] - 33) < 2;
+      }
+    return count;
+  };
+  constexpr int kLarge = 900;
+  overview_->Render(kLarge, kLarge);
+  const int at_1 = label_pixels();
+  overview_->handle_scale = 2;
+  EXPECT_TRUE(overview_->Render(kLarge, kLarge));
+  EXPECT_GT(label_pixels(), 2.5 * at_1);
+  EXPECT_FALSE(overview_->Render(kLarge, kLarge));
+}
+
 TEST_F(OverviewTest, DraggingTheCentreOfTheBoxMovesOnlyTheTissue) {
   overview_->ChooseTissue(0);
   overview_->Render(kSize, kSize);
