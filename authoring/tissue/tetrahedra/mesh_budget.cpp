@@ -92,9 +92,10 @@ double StepTimeOf(int elements) {
 
 std::string BudgetWords(const MeshBudget& budget) {
   return fmt::format(
-      "About {} elements. So many gave way up to {:.0f} % too little where 0.2 N pressed the free "
-      "edge of the demo's meniscus, {:.0f} % when told where; {:.2g} ms a step.",
-      budget.elements, 100 * budget.error, 100 * budget.probed_error, budget.step_ms);
+      "About {} elements, {:.2g} ms per step. The demo's meniscus, pressed at its free edge with "
+      "0.2 N, yields up to {:.0f} % too little with so many; {:.0f} % where the probed place is "
+      "marked.",
+      budget.elements, budget.step_ms, 100 * budget.error, 100 * budget.probed_error);
 }
 
 TetMesh TetrahedralizeToBudget(const SurfaceMesh& surface, const SurfaceSource& source,
