@@ -123,7 +123,7 @@ class Conversation {
   }
 
   HourVerdict Loss() {
-    const HourVerdict verdict =
+    HourVerdict verdict =
         JudgeLoss(Try("Pull the cable of the device out of the computer while it pushes",
                       {{force_, 0, 0}, Limits(), kPulling}));
     Ask("Plug the cable in again; then press Enter");
@@ -165,7 +165,7 @@ class Conversation {
   }
 
   std::string Ask(const std::string& question) {
-    const std::string answer = person_.ask(question + ": ");
+    std::string answer = person_.ask(question + ": ");
     if (answer == "stop" || ticks_.stops()) throw Ended();
     return answer;
   }

@@ -122,6 +122,9 @@ ForceDevice Choose(std::vector<ForceDevice> devices, const std::string& serial) 
 }  // namespace
 
 void WalkFirstHour(HidBus& bus, const FirstHourArguments& arguments, const Progress& progress) {
+  if (!HasOpenHaptics() && !arguments.openhaptics.empty())
+    throw Error(Code::kDevice,
+                fmt::format("--openhaptics {}: {}", arguments.openhaptics.front(), kNoOpenHaptics));
   std::vector<ForceDevice> devices;
   for (const SurveyedDevice& own : SurveyDevices(bus, arguments.model).devices)
     if (own.can_be_used && HasForce(own.caps))

@@ -165,6 +165,7 @@ const std::map<std::string, std::string> kOutputs = {
     {"depth --noise", "depth @g.png -o @d.tiff --noise @X"},
     {"devices --json", "devices --json @X"},
     {"devices --log", "devices --self-test --log @X"},
+    {"devices --record", "devices --first-hour --record @X"},
     {"edit --log", "edit @S --hands plant --log @X"},
     {"lens --output", "lens @g.png --spacing-mm 1 -o @X"},
     {"lens --report", "lens @g.png --spacing-mm 1 -o @new.json --report @X"},
@@ -213,8 +214,10 @@ const std::map<std::string, std::string> kOutputs = {
 
 // Flags of text that name no file that is written.
 const std::set<std::string> kNoOutput = {
-    "check SCENE", "bench micro --only", "bench tissue --only", "--options",      "--layout",
-    "--model",     "--openhaptics",      "--disturb",           "reach --suggest"};
+    "check SCENE",     "bench micro --only", "bench tissue --only",
+    "--options",       "--layout",           "--model",
+    "--openhaptics",   "--disturb",          "reach --suggest",
+    "devices --serial"};
 
 // "job" and "job sub" of the program's own help.
 std::vector<std::string> AllJobs() {

@@ -48,11 +48,14 @@ TEST(DevicesJob, WithoutTheMakersLibrarySaysWhatATouchNeeds) {
   EXPECT_EQ(json["openhaptics"]["sentence"],
             "this program was built without OpenHaptics, through which a Touch and its kin speak; "
             "install it (HD/hd.h, libHD) and build this program again");
-  const ProgramResult named = RunProgram("devices --openhaptics left");
-  EXPECT_EQ(named.exit_code, 1);
-  EXPECT_NE(named.err.find("--openhaptics left: this program was built without OpenHaptics"),
-            std::string::npos)
-      << named.err;
+  for (const char* words :
+       {"devices --openhaptics left", "devices --first-hour --openhaptics left"}) {
+    const ProgramResult named = RunProgram(words);
+    EXPECT_EQ(named.exit_code, 1);
+    EXPECT_NE(named.err.find("--openhaptics left: this program was built without OpenHaptics"),
+              std::string::npos)
+        << named.err;
+  }
 }
 
 TEST(DevicesJob, TheFirstHourWithoutAForceDeviceIsRefusedAndWritesNothing) {
