@@ -115,14 +115,29 @@ double FarthestIn(double haze) {
                   : kFarthestLook;
 }
 
-// Turns the scope half around and waits while the instrument is in the joint.
+// The free pose with the present insertion whose view is farthest from a point.
+RodPose PoseAwayFrom(const RobotMind& mind, const glm::dvec3& x) {
+  const PoseSearch search = mind.Search({TargetInBall(x, 1e-3)});
+  RodPose away = mind.hands.at().scope;
+  float farthest = 0;
+  for (const double roll : PoseSearch::Rolls())
+    for (const double degrees : {-45.0, -30.0, -15.0, 0.0, 15.0, 30.0, 45.0}) {
+      RodPose pose = mind.hands.at().scope;
+      pose.roll = roll;
+      pose.longitude = RadiansFromDegrees(degrees);
+      const float centre = search.See(pose).target[0].centre;
+      if (centre <= farthest || !search.IsFree(pose)) continue;
+      farthest = centre, away = pose;
+    }
+  return away;
+}
+
+// Turns the scope away from the tip and waits, while the instrument is in the joint.
 void LookAway(RobotMind& mind) {
   if (!mind.Has(RobotFault::kLooksAway)) return;
   constexpr double kAway = 25.0;  // s
   const RodPose before = mind.hands.at().scope;
-  RodPose away = before;
-  away.roll += std::numbers::pi;
-  away.longitude -= RadiansFromDegrees(60);
+  const RodPose away = PoseAwayFrom(mind, mind.hands.InstrumentTip());
   if (!mind.hands.Lead(DeviceRole::kScope, away) || !mind.hands.Wait(kAway)) return;
   mind.hands.Lead(DeviceRole::kScope, before);
 }

@@ -1,89 +1,82 @@
 // Resection: bites of basket forceps where they take most of the regions that is left, least of the
-// rest, and where the jaws fit past the tissue at rest. Frame of the body, m, except where it says
-// portal.
+// rest, and where the jaws fit past the tissue at rest.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "simulation/practice/living_tissues.h"
+#include "simulation/training/robot/steps/bite_plan.h"
 #include "simulation/training/robot/steps/robot_mind.h"
 #include "simulation/training/steps/exercise_index.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kGrid = 4e-4;      // m, of the points that stand for the tissue
-constexpr double kAround = 2.5e-3;  // m about the regions in which the rest of the tissue counts
-constexpr double kAtPortal = 2e-3;  // m, insertion between two bites
-constexpr double kJaws = 0.3;       // s, in which jaws close or open
+constexpr double kAtPortal = 2e-3;     // m, insertion between two bites
+constexpr double kRests = 0.4;         // s, in which tip and tissue come to rest before a bite
+constexpr double kJaws = 0.3;          // s, in which jaws close or open
+constexpr double kYields = 1.0;        // N at the tip, from which the hand yields
+constexpr double kPeakOfMean = 1.875;  // peak speed of a minimum-jerk leg per mean speed
 // Costs of a point of the rest, per point of the regions, from a careful bite to a bold one.
 constexpr std::array kRest = {2.0, 1.0, 0.5};
-constexpr double kBlocked = 0.5;  // cost of a point in the way of a jaw
+constexpr double kTried = 1e-3;  // m about a bite that was not worth it, in which none is tried
 constexpr int kMostBites = 40;
-constexpr int kRolls = 24;
-constexpr double kMiddles = 7e-4;  // m, between places of a bite
-constexpr double kBeyond = 1e-3;   // m, of such a place outside of the regions
 
-struct TissuePoint {
-  glm::dvec3 x;  // portal frame
-  bool is_wanted;
-};
-
-// Places where a ray along x through (y, z) enters or leaves a surface.
-void Crossings(const SurfaceMesh& skin, double y, double z, std::vector<double>& at) {
-  at.clear();
-  for (const auto& triangle : skin.triangles) {
-    const glm::dvec3& a = skin.vertices[static_cast<std::size_t>(triangle[0])];
-    const glm::dvec3& b = skin.vertices[static_cast<std::size_t>(triangle[1])];
-    const glm::dvec3& c = skin.vertices[static_cast<std::size_t>(triangle[2])];
-    if (std::max({a.y, b.y, c.y}) < y || std::min({a.y, b.y, c.y}) > y ||
-        std::max({a.z, b.z, c.z}) < z || std::min({a.z, b.z, c.z}) > z)
-      continue;
-    const double area = (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y);
-    if (area == 0) continue;
-    const double v = ((y - a.y) * (c.z - a.z) - (z - a.z) * (c.y - a.y)) / area;
-    const double w = ((b.y - a.y) * (z - a.z) - (b.z - a.z) * (y - a.y)) / area;
-    if (v < 0 || w < 0 || v + w > 1) continue;
-    at.push_back(a.x + v * (b.x - a.x) + w * (c.x - a.x));
-  }
-  std::ranges::sort(at);
+const ToolFrame& InstrumentOf(const RobotMind& mind) {
+  return mind.joint.frame().tool[Index(DeviceRole::kInstrument)];
 }
 
-// Points in the tissue about the regions.
-std::vector<TissuePoint> PointsOf(const SurfaceMesh& skin, std::span<const Ball> regions,
-                                  const Rigid3& portal_from_body) {
-  std::vector<TissuePoint> points;
-  glm::dvec3 low(1e9), high(-1e9);
-  for (const Ball& ball : regions) {
-    low = glm::min(low, ball.centre - (ball.radius + kAround));
-    high = glm::max(high, ball.centre + (ball.radius + kAround));
+// Brings the drawn tip to where it is wanted, against what holds it.
+void Settle(RobotMind& mind, const glm::dvec3& tip) {
+  constexpr int kFrames = 30;
+  constexpr double kGain = 0.1, kNear = 3e-4, kMost = 4e-3;
+  glm::dvec3 to = tip;
+  for (int i = 0; i < kFrames && mind.IsRunning(); ++i) {
+    const ToolFrame& tool = InstrumentOf(mind);
+    if (tool.peak_force > static_cast<float>(kYields)) return;
+    const glm::dvec3 off = tip - glm::dvec3(tool.drawn_tip);
+    if (glm::length(off) < kNear && i > 3) return;
+    to += kGain * off;
+    if (glm::distance(to, tip) > kMost) to = tip + kMost * glm::normalize(to - tip);
+    RobotHands hands = mind.hands.at();
+    hands.instrument = PoseOfTip(mind.joint.instrument_portal(), to, hands.instrument.roll);
+    mind.hands.Frame(hands);
   }
-  std::vector<double> at;
-  for (double z = low.z; z < high.z; z += kGrid)
-    for (double y = low.y; y < high.y; y += kGrid) {
-      Crossings(skin, y + 1e-7, z + 1e-7, at);
-      for (double x = low.x; x < high.x; x += kGrid) {
-        const auto before = std::ranges::count_if(at, [x](double each) { return each < x; });
-        if (before % 2 == 0) continue;
-        const glm::dvec3 p(x, y, z);
-        const bool is_wanted = std::ranges::any_of(regions, [&](const Ball& ball) {
-          return glm::distance(p, ball.centre) <= ball.radius;
-        });
-        points.push_back({portal_from_body * p, is_wanted});
-      }
-    }
-  return points;
 }
 
-bool IsInCapsule(const glm::dvec3& x, const Capsule& capsule) {
-  const glm::dvec3 way = capsule.b - capsule.a;
-  const double length2 = glm::dot(way, way);
-  const double s = length2 > 0 ? std::clamp(glm::dot(x - capsule.a, way) / length2, 0.0, 1.0) : 0;
-  const glm::dvec3 off = x - (capsule.a + s * way);
-  return glm::dot(off, off) <= capsule.radius * capsule.radius;
+// Slides the instrument along its rod to an insertion. Returns false where it stops, because its
+// tip feels too much.
+bool SlideTo(RobotMind& mind, double depth) {
+  const double from = mind.hands.at().instrument.depth;
+  const int frames = FramesOf(kPeakOfMean * std::abs(depth - from) / mind.options.speed);
+  for (int i = 1; i <= frames && mind.IsRunning(); ++i) {
+    if (InstrumentOf(mind).peak_force > static_cast<float>(kYields)) return false;
+    RobotHands hands = mind.hands.at();
+    hands.instrument.depth = from + MinimumJerk(static_cast<double>(i) / frames) * (depth - from);
+    mind.hands.Frame(hands);
+  }
+  return true;
+}
+
+// Brings the hand to where its tip is held, so that nothing pulls at it.
+void LetGo(RobotMind& mind) {
+  const glm::dvec3 tip(InstrumentOf(mind).drawn_tip);
+  mind.hands.Leg(DeviceRole::kInstrument,
+                 PoseOfTip(mind.joint.instrument_portal(), tip, mind.hands.at().instrument.roll));
+}
+
+// Withdraws the instrument along its rod; where the tip is held, it sets out again from there.
+void WithdrawJaws(RobotMind& mind) {
+  constexpr int kMostTries = 10;
+  LetGo(mind);
+  for (int i = 0; i < kMostTries && mind.IsRunning() && !SlideTo(mind, kAtPortal); ++i) LetGo(mind);
+  RodPose back = mind.hands.at().instrument;
+  back.depth = kAtPortal;
+  mind.hands.Leg(DeviceRole::kInstrument, back);
 }
 
 // A ball of the same size on the skin, a diameter and a half away from the region.
@@ -99,96 +92,78 @@ Ball BesideRegion(const SurfaceMesh& skin, const Ball& ball) {
   return beside;
 }
 
-struct Bite {
-  glm::dvec3 tip{0.0};  // portal frame
-  double roll = 0, gain = 0;
+struct Resection {
+  RobotMind& mind;
+  int tissue;  // in the scene
+  BodyPlaces places;
+  Rigid3 portal_from_body;
+  std::vector<Ball> regions;  // to bite, frame of the body
+  std::vector<glm::dvec3> middles = MiddlesOf(regions, portal_from_body);
+  ToolShape shape = ShapeOf(ToolKind::kPunch);
+
+  void TurnTo(std::vector<Ball> balls) {
+    regions = std::move(balls);
+    middles = MiddlesOf(regions, portal_from_body);
+  }
+  const BodyPicture* Picture() const {
+    if (const WorldPicture* world = mind.joint.tissues())
+      for (const BodyPicture& body : world->bodies)
+        if (body.tissue == tissue && body.skin) return &body;
+    return nullptr;
+  }
+  // Points of the tissue that is left, at rest.
+  std::vector<TissuePoint> Points() const {
+    const BodyPicture* picture = Picture();
+    return PointsOf(picture == nullptr ? places.surface : picture->skin->surface, regions,
+                    portal_from_body);
+  }
+  Bite Plan() const {
+    const std::vector<TissuePoint> points = Points();
+    Bite bite;
+    for (const double rest : kRest)
+      if (!(bite.gain > 0))
+        bite = BestBite(points, middles, mind.joint.instrument_portal(), shape, rest);
+    return bite;
+  }
+  // True where the jaws, where they have come to, hold more of the regions than of the rest.
+  bool IsWorthIt() const {
+    std::vector<TissuePoint> points = Points();
+    if (const BodyPicture* picture = Picture())
+      MoveWithSkin(points, picture->skin->surface.vertices, picture->positions, portal_from_body);
+    return GainAt(points, mind.joint.instrument_portal(), glm::dvec3(InstrumentOf(mind).drawn_tip),
+                  shape, 1.0) > 0;
+  }
 };
 
-// Points of the regions in a bite, less the cost of the others.
-double GainOf(std::span<const TissuePoint> points, const Capsule& bite, double rest) {
-  double gain = 0;
-  for (const TissuePoint& point : points)
-    if (IsInCapsule(point.x, bite)) gain += point.is_wanted ? 1 : -rest;
-  return gain;
+Resection ResectionOf(RobotMind& mind, int target) {
+  const TargetPlace& place = mind.joint.places()[static_cast<std::size_t>(target)];
+  const auto tissue = static_cast<std::size_t>(place.region_tissue);
+  const LoadedScene& loaded = mind.joint.loaded();
+  const Pose& pose = loaded.scene.tissues[tissue].pose;
+  BodyPlaces places = PlacesOf(loaded.scene.tissues[tissue], OrEmpty(loaded.surfaces[tissue]));
+  std::vector<Ball> regions;
+  for (const int region : place.regions)
+    regions.push_back(places.regions[static_cast<std::size_t>(region)].ball);
+  return {mind, place.region_tissue, std::move(places), {pose.quaternion, pose.position}, regions};
 }
 
-// Best bite of the punch among places about the regions.
-Bite BestBite(std::span<const TissuePoint> points, std::span<const glm::dvec3> middles,
-              const glm::dvec3& portal, const ToolShape& shape, double rest) {
-  Bite best;
-  const double middle = -0.5 * (shape.bite.a.z + shape.bite.b.z);
-  for (const glm::dvec3& p : middles) {
-    // The bite lies on the axis of the tool, so its gain is that of any roll.
-    const glm::dvec3 tip = p + middle * glm::normalize(p - portal);
-    ToolInput input;
-    input.is_present = true;
-    input.opening = 1;
-    input.portal_from_tool = PortalFromTool(portal, tip, 0);
-    const double gain = GainOf(points,
-                               {input.portal_from_tool * shape.bite.a,
-                                input.portal_from_tool * shape.bite.b, shape.bite.radius},
-                               rest);
-    if (gain <= best.gain) continue;
-    for (int i = 0; i < kRolls; ++i) {
-      const double roll = 2 * std::numbers::pi * i / kRolls;
-      input.portal_from_tool = PortalFromTool(portal, tip, roll);
-      std::array<Capsule, kMaxCapsules> jaws;
-      const auto count = static_cast<std::size_t>(PosedCapsules(shape, input, jaws));
-      double left = gain;
-      for (const TissuePoint& point : points)
-        for (std::size_t k = 0; k < count; ++k)
-          if (IsInCapsule(point.x, jaws[k])) left -= kBlocked;
-      if (left > best.gain) best = {tip, roll, left};
-    }
-  }
-  return best;
-}
-
-std::vector<glm::dvec3> MiddlesOf(std::span<const Ball> regions, const Rigid3& portal_from_body) {
-  std::vector<glm::dvec3> middles;
-  for (const Ball& ball : regions) {
-    const double reach = ball.radius + kBeyond;
-    for (double x = -reach; x <= reach; x += kMiddles)
-      for (double y = -reach; y <= reach; y += kMiddles)
-        for (double z = -reach; z <= reach; z += kMiddles)
-          if (glm::length(glm::dvec3(x, y, z)) <= reach)
-            middles.push_back(portal_from_body * (ball.centre + glm::dvec3(x, y, z)));
-  }
-  return middles;
-}
-
-// Brings the drawn tip to where it is wanted, against what holds it.
-void Settle(RobotMind& mind, const glm::dvec3& tip) {
-  constexpr int kFrames = 30;
-  constexpr double kGain = 0.1, kNear = 3e-4, kMost = 4e-3;
-  glm::dvec3 to = tip;
-  for (int i = 0; i < kFrames && mind.IsRunning(); ++i) {
-    const glm::dvec3 off =
-        tip - glm::dvec3(mind.joint.frame().tool[Index(DeviceRole::kInstrument)].drawn_tip);
-    if (glm::length(off) < kNear && i > 3) return;
-    to += kGain * off;
-    if (glm::distance(to, tip) > kMost) to = tip + kMost * glm::normalize(to - tip);
-    RobotHands hands = mind.hands.at();
-    hands.instrument = PoseOfTip(mind.joint.instrument_portal(), to, hands.instrument.roll);
-    mind.hands.Frame(hands);
-  }
-}
-
-void TakeBite(RobotMind& mind, const Bite& bite) {
+void TakeBite(Resection& work, const Bite& bite) {
+  RobotMind& mind = work.mind;
   RodPose pose = PoseOfTip(mind.joint.instrument_portal(), bite.tip, bite.roll);
   mind.hands.Close(false, kJaws);
   // Open jaws are wide: they turn at the portal, and go straight to the tissue and back.
   RodPose begin = pose;
   begin.depth = kAtPortal;
   if (!mind.hands.Lead(DeviceRole::kInstrument, begin)) return;
-  pose.roll = mind.hands.at().instrument.roll;
-  if (!mind.hands.Leg(DeviceRole::kInstrument, pose)) return;
-  Settle(mind, bite.tip);
-  mind.hands.Close(true, kJaws);
-  RodPose back = mind.hands.at().instrument;
-  back.depth = kAtPortal;
+  if (SlideTo(mind, pose.depth)) Settle(mind, bite.tip);
+  if (!mind.hands.Wait(kRests)) return;
+  if (work.IsWorthIt())
+    mind.hands.Close(true, kJaws);
+  else
+    std::erase_if(work.middles,
+                  [&](const glm::dvec3& x) { return glm::distance(x, bite.middle) < kTried; });
   // Jaws that open in the tissue would catch it on the way back.
-  mind.hands.Leg(DeviceRole::kInstrument, back);
+  WithdrawJaws(mind);
   mind.hands.Close(false, kJaws);
 }
 
@@ -199,38 +174,21 @@ void Do(RobotMind& mind, const ResectStep& step) {
   if (targets.empty()) return;
   LookAtWork(mind, targets, 0.1);
   mind.joint.SetInstrument(ToolKind::kPunch);
-  const TargetPlace& place = mind.joint.places()[static_cast<std::size_t>(targets.front())];
-  const auto tissue = static_cast<std::size_t>(place.region_tissue);
-  const LoadedScene& loaded = mind.joint.loaded();
-  const BodyPlaces places =
-      PlacesOf(loaded.scene.tissues[tissue], OrEmpty(loaded.surfaces[tissue]));
-  const Pose& pose = loaded.scene.tissues[tissue].pose;
-  const Rigid3 portal_from_body{pose.quaternion, pose.position};
-  std::vector<Ball> regions;
-  for (const int region : place.regions)
-    regions.push_back(places.regions[static_cast<std::size_t>(region)].ball);
+  Resection work = ResectionOf(mind, targets.front());
+  const std::vector<Ball> marked = work.regions;
   // A novice takes a part that nobody marked.
-  const std::vector<Ball> marked = regions;
-  if (mind.Has(RobotFault::kCutsOutside))
-    for (Ball& ball : regions) ball = BesideRegion(places.surface, ball);
-  const ToolShape shape = ShapeOf(ToolKind::kPunch);
-  std::vector<glm::dvec3> middles = MiddlesOf(regions, portal_from_body);
+  if (mind.Has(RobotFault::kCutsOutside)) {
+    std::vector<Ball> beside;
+    for (const Ball& ball : marked) beside.push_back(BesideRegion(work.places.surface, ball));
+    work.TurnTo(beside);
+  }
   for (int bites = 0; bites < kMostBites && mind.IsRunning(); ++bites) {
     if (mind.joint.engine().strip().progress >= 1) break;
-    const SurfaceMesh* skin = &places.surface;
-    if (const WorldPicture* world = mind.joint.tissues())
-      for (const BodyPicture& body : world->bodies)
-        if (body.tissue == place.region_tissue && body.skin) skin = &body.skin->surface;
-    const auto points = PointsOf(*skin, regions, portal_from_body);
-    Bite bite;
-    for (const double rest : kRest)
-      if (!(bite.gain > 0))
-        bite = BestBite(points, middles, mind.joint.instrument_portal(), shape, rest);
+    const Bite bite = work.Plan();
     if (!(bite.gain > 0)) break;
+    TakeBite(work, bite);
     // The part beside is done with two bites; then the novice turns to the marked one.
-    if (mind.Has(RobotFault::kCutsOutside) && bites == 1)
-      regions = marked, middles = MiddlesOf(regions, portal_from_body);
-    TakeBite(mind, bite);
+    if (mind.Has(RobotFault::kCutsOutside) && bites == 1) work.TurnTo(marked);
   }
   if (mind.IsRunning() && mind.joint.engine().strip().progress < 1)
     mind.Trouble("no bite takes more of the regions than of the rest");

@@ -1,0 +1,148 @@
+#include "simulation/training/robot/steps/bite_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "simulation/scope/rod_pose.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr double kGrid = 4e-4;      // m, of the points that stand for the tissue
+constexpr double kAround = 2.5e-3;  // m about the regions in which the rest of the tissue counts
+constexpr double kBlocked = 0.5;    // cost of a point in the way of a jaw
+constexpr int kRolls = 24;
+constexpr double kMiddles = 7e-4;  // m, between places of a bite
+constexpr double kBeyond = 1e-3;   // m, of such a place outside of the regions
+
+// Places where a ray along x through (y, z) enters or leaves a surface.
+void Crossings(const SurfaceMesh& skin, double y, double z, std::vector<double>& at) {
+  at.clear();
+  for (const auto& triangle : skin.triangles) {
+    const glm::dvec3& a = skin.vertices[static_cast<std::size_t>(triangle[0])];
+    const glm::dvec3& b = skin.vertices[static_cast<std::size_t>(triangle[1])];
+    const glm::dvec3& c = skin.vertices[static_cast<std::size_t>(triangle[2])];
+    if (std::max({a.y, b.y, c.y}) < y || std::min({a.y, b.y, c.y}) > y ||
+        std::max({a.z, b.z, c.z}) < z || std::min({a.z, b.z, c.z}) > z)
+      continue;
+    const double area = (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y);
+    if (area == 0) continue;
+    const double v = ((y - a.y) * (c.z - a.z) - (z - a.z) * (c.y - a.y)) / area;
+    const double w = ((b.y - a.y) * (z - a.z) - (b.z - a.z) * (y - a.y)) / area;
+    if (v < 0 || w < 0 || v + w > 1) continue;
+    at.push_back(a.x + v * (b.x - a.x) + w * (c.x - a.x));
+  }
+  std::ranges::sort(at);
+}
+
+bool IsInCapsule(const glm::dvec3& x, const Capsule& capsule) {
+  const glm::dvec3 way = capsule.b - capsule.a;
+  const double length2 = glm::dot(way, way);
+  const double s = length2 > 0 ? std::clamp(glm::dot(x - capsule.a, way) / length2, 0.0, 1.0) : 0;
+  const glm::dvec3 off = x - (capsule.a + s * way);
+  return glm::dot(off, off) <= capsule.radius * capsule.radius;
+}
+
+}  // namespace
+
+std::vector<TissuePoint> PointsOf(const SurfaceMesh& skin, std::span<const Ball> regions,
+                                  const Rigid3& portal_from_body) {
+  std::vector<TissuePoint> points;
+  glm::dvec3 low(1e9), high(-1e9);
+  for (const Ball& ball : regions) {
+    low = glm::min(low, ball.centre - (ball.radius + kAround));
+    high = glm::max(high, ball.centre + (ball.radius + kAround));
+  }
+  std::vector<double> at;
+  for (double z = low.z; z < high.z; z += kGrid)
+    for (double y = low.y; y < high.y; y += kGrid) {
+      Crossings(skin, y + 1e-7, z + 1e-7, at);
+      for (double x = low.x; x < high.x; x += kGrid) {
+        const auto before = std::ranges::count_if(at, [x](double each) { return each < x; });
+        if (before % 2 == 0) continue;
+        const glm::dvec3 p(x, y, z);
+        const bool is_wanted = std::ranges::any_of(regions, [&](const Ball& ball) {
+          return glm::distance(p, ball.centre) <= ball.radius;
+        });
+        points.push_back({portal_from_body * p, is_wanted});
+      }
+    }
+  return points;
+}
+
+void MoveWithSkin(std::vector<TissuePoint>& points, std::span<const glm::dvec3> rest,
+                  std::span<const glm::dvec3> now, const Rigid3& portal_from_body) {
+  constexpr double kNear = 1e-8;  // m², so that a point on a vertex moves as that does
+  const Rigid3 body_from_portal = Inverse(portal_from_body);
+  for (TissuePoint& point : points) {
+    const glm::dvec3 x = body_from_portal * point.x;
+    // Inverse-distance weights [Shepard 1968, doi 10.1145/800186.810616], with power 4.
+    glm::dvec3 moved(0.0);
+    double sum = 0;
+    for (std::size_t i = 0; i < std::min(rest.size(), now.size()); ++i) {
+      const glm::dvec3 off = x - rest[i];
+      const double near = glm::dot(off, off) + kNear;
+      const double weight = 1 / (near * near);
+      moved += weight * (now[i] - rest[i]);
+      sum += weight;
+    }
+    if (sum > 0) point.x = portal_from_body * (x + moved / sum);
+  }
+}
+
+std::vector<glm::dvec3> MiddlesOf(std::span<const Ball> regions, const Rigid3& portal_from_body) {
+  std::vector<glm::dvec3> middles;
+  for (const Ball& ball : regions) {
+    const double reach = ball.radius + kBeyond;
+    for (double x = -reach; x <= reach; x += kMiddles)
+      for (double y = -reach; y <= reach; y += kMiddles)
+        for (double z = -reach; z <= reach; z += kMiddles)
+          if (glm::length(glm::dvec3(x, y, z)) <= reach)
+            middles.push_back(portal_from_body * (ball.centre + glm::dvec3(x, y, z)));
+  }
+  return middles;
+}
+
+double GainAt(std::span<const TissuePoint> points, const glm::dvec3& portal, const glm::dvec3& tip,
+              const ToolShape& shape, double rest) {
+  // The bite lies on the axis of the tool, so its gain is that of any roll.
+  const Rigid3 portal_from_tool = PortalFromTool(portal, tip, 0);
+  const Capsule bite{portal_from_tool * shape.bite.a, portal_from_tool * shape.bite.b,
+                     shape.bite.radius};
+  double gain = 0;
+  for (const TissuePoint& point : points)
+    if (IsInCapsule(point.x, bite)) gain += point.is_wanted ? 1 : -rest;
+  return gain;
+}
+
+Bite BestBite(std::span<const TissuePoint> points, std::span<const glm::dvec3> middles,
+              const glm::dvec3& portal, const ToolShape& shape, double rest) {
+  Bite best;
+  const double middle = -0.5 * (shape.bite.a.z + shape.bite.b.z);
+  for (const glm::dvec3& p : middles) {
+    const glm::dvec3 tip = p + middle * glm::normalize(p - portal);
+    const double gain = GainAt(points, portal, tip, shape, rest);
+    if (gain <= best.gain) continue;
+    ToolInput input;
+    input.is_present = true;
+    input.opening = 1;
+    for (int i = 0; i < kRolls; ++i) {
+      const double roll = 2 * std::numbers::pi * i / kRolls;
+      input.portal_from_tool = PortalFromTool(portal, tip, roll);
+      std::array<Capsule, kMaxCapsules> jaws;
+      const auto count = static_cast<std::size_t>(PosedCapsules(shape, input, jaws));
+      double left = gain;
+      for (const TissuePoint& point : points)
+        for (std::size_t k = 0; k < count; ++k)
+          if (IsInCapsule(point.x, jaws[k])) left -= kBlocked;
+      if (left > best.gain) best = {tip, p, roll, left};
+    }
+  }
+  return best;
+}
+
+}  // namespace arthro::simulation
