@@ -28,6 +28,7 @@
 #include "simulation/scene/json/scene_schema.h"
 #include "simulation/scene/solids/solid_io.h"
 #include "simulation/scope/window_lens.h"
+#include "simulation/training/robot/unseen_targets.h"
 #include "simulation/training/score/criteria.h"
 
 namespace arthro::app {
@@ -49,6 +50,15 @@ void LookAtLens(const LoadedScene& loaded, SceneFindings& findings) {
   }
 }
 
+void LookAtPoses(const LoadedScene& loaded, SceneFindings& findings) {
+  try {
+    for (const simulation::UnseenTarget& unseen : simulation::UnseenTargets(loaded))
+      findings.warnings.push_back(simulation::ToString(unseen));
+  } catch (const Error& error) {
+    findings.errors.push_back(error.sentence());
+  }
+}
+
 void CheckForSharing(const std::string& scene) {
   const std::vector<std::string> missing =
       authoring::MissingForSharing(authoring::OpenDocument(scene));
@@ -64,7 +74,8 @@ void CheckForSharing(const std::string& scene) {
               scene);
 }
 
-void Check(const std::string& scene, const std::string& report, bool is_for_sharing) {
+void Check(const std::string& scene, const std::string& report, bool is_for_sharing,
+           bool tries_poses) {
   const auto presets = ShippedTissuePresets();
   LoadedScene loaded;
   SceneFindings findings = CheckScene(scene, &loaded, [&](const Tissue& tissue) {
@@ -74,6 +85,7 @@ void Check(const std::string& scene, const std::string& report, bool is_for_shar
     findings.errors.push_back(std::move(fault));
   if (findings.errors.empty()) simulation::CheckCuts(loaded, findings);
   if (findings.errors.empty()) LookAtLens(loaded, findings);
+  if (findings.errors.empty() && tries_poses) LookAtPoses(loaded, findings);
   if (!report.empty()) WriteAtomically(report, JsonFromFindings(findings));
   if (const std::size_t count = findings.errors.size()) {
     // Findings of a scene that was read in part would mislead.
@@ -98,7 +110,7 @@ void AddCheckJob(CLI::App& program) {
       program.add_subcommand("check", "Load a scene with all its files and say what is wrong.");
   struct Arguments {
     std::string scene, report;
-    bool is_for_sharing = false;
+    bool is_for_sharing = false, tries_poses = false;
   };
   const auto own = std::make_shared<Arguments>();
   const auto files = JobFiles::Of(*job);
@@ -114,6 +126,9 @@ void AddCheckJob(CLI::App& program) {
   job->add_flag("--for-sharing", own->is_for_sharing,
                 "List only what should be stated before the scene is shared: title, author, and "
                 "source, licence and consent of each asset. The exit code is 1 if anything is.");
+  job->add_flag("--poses", own->tries_poses,
+                "Also try poses of the scope, and warn of targets of exercises that none of them "
+                "sees. Takes a few seconds.");
   for (const auto& [flag, text, kind] :
        {std::tuple{"--schema", &SceneSchemaText, "scene.json"},
         std::tuple{"--rig-schema", &RigSchemaText, "rig files"},
@@ -130,7 +145,7 @@ void AddCheckJob(CLI::App& program) {
           throw CLI::Success();
         },
         fmt::format("Print the JSON Schema of {}, and do nothing else.", kind));
-  files->Run([own] { Check(own->scene, own->report, own->is_for_sharing); });
+  files->Run([own] { Check(own->scene, own->report, own->is_for_sharing, own->tries_poses); });
 }
 
 }  // namespace arthro::app

@@ -119,12 +119,14 @@ std::optional<ScopeLook> PoseSearch::At(int target, double roll, double insertio
 
 std::vector<double> PoseSearch::Rolls() {
   std::vector<double> rolls;
+  rolls.reserve(kRolls);
   for (int i = 0; i < kRolls; ++i) rolls.push_back(i * kRollStep);
   return rolls;
 }
 
 std::vector<double> PoseSearch::Insertions() {
   std::vector<double> insertions;
+  insertions.reserve(kInsertions);
   for (int i = 0; i < kInsertions; ++i) insertions.push_back(kFirstInsertion + i * kInsertionStep);
   return insertions;
 }
