@@ -80,7 +80,7 @@ void MoveWithSkin(std::vector<TissuePoint>& points, std::span<const glm::dvec3> 
   const Rigid3 body_from_portal = Inverse(portal_from_body);
   for (TissuePoint& point : points) {
     const glm::dvec3 x = body_from_portal * point.x;
-    // Inverse-distance weights [Shepard 1968, doi 10.1145/800186.810616], with power 4.
+    // Inverse-distance weights after Shepard (1968), with power 4.
     glm::dvec3 moved(0.0);
     double sum = 0;
     for (std::size_t i = 0; i < std::min(rest.size(), now.size()); ++i) {
