@@ -27,7 +27,7 @@ struct Hit {
   glm::dvec3 x{0.0};  // model: tissue's frame; relief: portal frame
 };
 
-// Distance along a ray to a triangle [Möller and Trumbore 1997].
+// Distance along a ray to a triangle [Möller & Trumbore 1997].
 std::optional<double> Along(const authoring::Sight& ray, const glm::dvec3& a, const glm::dvec3& b,
                             const glm::dvec3& c) {
   const glm::dvec3 ab = b - a, ac = c - a, p = glm::cross(ray.direction, ac);
