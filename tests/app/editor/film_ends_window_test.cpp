@@ -30,6 +30,7 @@ pid_t Start(const std::vector<std::string>& words, const std::vector<std::string
             int kept) {
   const pid_t child = ::fork();
   if (child != 0) return child;
+  ::signal(SIGHUP, SIG_DFL);  // a test under nohup has it ignored, and so would the program
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   const int none = ::open("/dev/null", O_RDWR);
