@@ -14,6 +14,15 @@ std::string JsonFromReport(const PanoramaReport& report);
 // Throws Error(kBadData) for what is no such report. Costs come in the order of their names.
 PanoramaReport ReportFromJson(const std::string& text, const std::filesystem::path& file = {});
 
+// Projection that a report gives a scene, without roll, and the size of its panorama, px.
+struct ReportedView {
+  Projection projection;
+  int width = 0, height = 0;
+};
+// Reads the entry `panorama` alone, so that reports of other programs which have it are accepted.
+// Throws Error(kBadData) with the key that is missing or of the wrong kind.
+ReportedView ViewFromReport(const std::string& text, const std::filesystem::path& file = {});
+
 // Writes the whole file or none; "-" is standard output.
 void WriteReport(const std::filesystem::path& file, const PanoramaReport& report);
 

@@ -1,6 +1,7 @@
 // Reading of a panorama's report (report_io.h).
 #include <array>
 #include <map>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -74,6 +75,16 @@ FrameReport FrameFromJson(const Json& json) {
   return frame;
 }
 
+Projection ProjectionOverRelief(const Json& json) {
+  Projection projection;
+  projection.type = ProjectionType::kEquirectangular;
+  const auto centre = Get<std::vector<double>>(json, "centre_px");
+  if (centre.size() != 2) throw ReportFault{"\"centre_px\" must be two numbers"};
+  projection.centre_px = {centre[0], centre[1]};
+  projection.px_per_deg = Get<double>(json, "px_per_deg");
+  return projection;
+}
+
 void ReadPanorama(const Json& json, PanoramaReport& report) {
   if (!json.contains("projection")) {
     report.panorama = ViewFromJson(json);
@@ -82,12 +93,7 @@ void ReadPanorama(const Json& json, PanoramaReport& report) {
   report.panorama.width = Get<int>(json, "width");
   report.panorama.height = Get<int>(json, "height");
   report.relief_radius = Get<double>(json, "radius");
-  const Json& over = At(json, "projection");
-  Projection& projection = report.over_relief.emplace();
-  projection.type = ProjectionType::kEquirectangular;
-  const auto centre = Get<std::array<double, 2>>(over, "centre_px");
-  projection.centre_px = {centre[0], centre[1]};
-  projection.px_per_deg = Get<double>(over, "px_per_deg");
+  report.over_relief = ProjectionOverRelief(At(json, "projection"));
 }
 
 PanoramaReport Read(const Json& json, const std::filesystem::path& file) {
@@ -136,16 +142,19 @@ PanoramaReport Read(const Json& json, const std::filesystem::path& file) {
   return report;
 }
 
-}  // namespace
+ReportedView ReadView(const Json& json) {
+  if (json.contains("projection"))
+    return {ProjectionOverRelief(At(json, "projection")), Get<int>(json, "width"),
+            Get<int>(json, "height")};
+  const PinholeView view = ViewFromJson(json);
+  return {{ProjectionType::kGnomonic, {view.cx, view.cy}, view.focal_px}, view.width, view.height};
+}
 
-PanoramaReport ReportFromJson(const std::string& text, const std::filesystem::path& file) {
-  const Json json = ParseJson(text, Code::kBadData, file);
+// Returns the value of `read`; a fault names the file and what to choose instead.
+template <class Read>
+auto InReport(const std::filesystem::path& file, const Read& read) {
   try {
-    PanoramaReport report = Read(json, file);
-    // Options keep their order.
-    const auto ordered = ParseOrderedJson(text, Code::kBadData);
-    if (ordered.contains("options")) report.options = ordered["options"].dump();
-    return report;
+    return read();
   } catch (const ReportFault& fault) {
     throw Error(Code::kBadData,
                 fmt::format("this is no report of a panorama: {}; choose the one that "
@@ -153,6 +162,24 @@ PanoramaReport ReportFromJson(const std::string& text, const std::filesystem::pa
                             fault.words),
                 file);
   }
+}
+
+}  // namespace
+
+PanoramaReport ReportFromJson(const std::string& text, const std::filesystem::path& file) {
+  const Json json = ParseJson(text, Code::kBadData, file);
+  return InReport(file, [&] {
+    PanoramaReport report = Read(json, file);
+    // Options keep their order.
+    const auto ordered = ParseOrderedJson(text, Code::kBadData);
+    if (ordered.contains("options")) report.options = ordered["options"].dump();
+    return report;
+  });
+}
+
+ReportedView ViewFromReport(const std::string& text, const std::filesystem::path& file) {
+  const Json json = ParseJson(text, Code::kBadData, file);
+  return InReport(file, [&] { return ReadView(At(json, "panorama")); });
 }
 
 }  // namespace arthro::authoring

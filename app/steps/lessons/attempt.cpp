@@ -13,18 +13,10 @@
 #include "simulation/training/observe/exercise_targets.h"
 #include "simulation/training/observe/surface_names.h"
 #include "simulation/training/score/criteria.h"
+#include "simulation/training/steps/start_disturbances.h"
 
 namespace arthro::app {
 namespace {
-
-// Strengths at the start of the exercise.
-simulation::Disturbances DisturbancesOf(const StartDisturbances& start) {
-  simulation::Disturbances now;
-  now.haze = start.haze, now.bubbles = start.bubbles, now.debris = start.debris;
-  now.fog = start.fog, now.near_blur = start.near_blur, now.far_blur = start.far_blur;
-  now.overexposure = start.overexposure;
-  return now;
-}
 
 void SetUp(EditorState& state, const ExerciseSetup& setup) {
   simulation::Practice& practice = *state.practice;
@@ -35,7 +27,7 @@ void SetUp(EditorState& state, const ExerciseSetup& setup) {
     practice.SetInstrument(simulation::ToolKindFromString(setup.instruments.front()));
   if (setup.head != HeadChoice::kAny)
     step.head = {.is_upright = setup.head == HeadChoice::kUpright};
-  step.disturbing.now = DisturbancesOf(setup.disturbances);
+  step.disturbing.now = simulation::DisturbancesOf(setup.disturbances);
   practice.scope().Set(
       {setup.scope.latitude, setup.scope.longitude, setup.scope.roll, setup.scope.insertion});
 }

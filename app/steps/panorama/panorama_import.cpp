@@ -3,8 +3,9 @@
 
 #include "app/state/edits.h"
 #include "app/steps/panorama/panorama_step.h"
-#include "authoring/panorama/reported_view.h"
+#include "authoring/panorama/report_io.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/scene/image_io.h"
 
 namespace arthro::app {
@@ -23,7 +24,8 @@ void ImportPanorama(EditorState& state, const fs::path& picture) {
 }
 
 void ReadPanoramaReport(EditorState& state, const fs::path& report) {
-  const authoring::ReportedView reported = authoring::ReadReportedView(report);
+  const authoring::ReportedView reported =
+      authoring::ViewFromReport(ReadWholeFile(report, kMostJsonBytes), report);
   if (const auto& panorama = state.document().panorama;
       panorama && (reported.width != panorama->width || reported.height != panorama->height))
     throw Error(Code::kBadData,

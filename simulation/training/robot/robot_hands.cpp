@@ -10,7 +10,6 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kPeakOfMean = 1.875;           // peak speed of a minimum-jerk leg per mean speed
 constexpr double kTurn = std::numbers::pi / 2;  // rad/s, largest speed of a roll
 constexpr double kShortest = 0.02;              // s, of a leg
 // Clearances of the shafts on the way, and the steps in which a tool is withdrawn to find one.

@@ -12,6 +12,7 @@ namespace arthro::simulation {
 
 // Share of a leg that is done at the share `s` of its time, with least jerk.
 double MinimumJerk(double s);
+inline constexpr double kPeakOfMean = 1.875;  // its peak speed per mean speed
 // Pose of a straight rod from `portal` whose tip is at `tip`.
 RodPose PoseOfTip(const glm::dvec3& portal, const glm::dvec3& tip, double roll);
 

@@ -6,20 +6,13 @@
 #include "simulation/practice/servo_loop.h"
 #include "simulation/training/observe/exercise_targets.h"
 #include "simulation/training/steps/exercise_index.h"
+#include "simulation/training/steps/start_disturbances.h"
 
 namespace arthro::simulation {
 namespace {
 
 constexpr int kTicksPerFrame = 10;
 constexpr double kOutside = -0.01;  // m, insertion of an instrument that is out of the joint
-
-Disturbances DisturbancesOf(const StartDisturbances& start, double haze) {
-  Disturbances now;
-  now.haze = std::max(start.haze, haze), now.bubbles = start.bubbles, now.debris = start.debris;
-  now.fog = start.fog, now.near_blur = start.near_blur, now.far_blur = start.far_blur;
-  now.overexposure = start.overexposure;
-  return now;
-}
 
 RobotHands HandsAtStart(const StartPose& scope) {
   RobotHands hands;
@@ -52,7 +45,7 @@ RobotJoint::RobotJoint(const LoadedScene& loaded, const Exercise& exercise,
     session_.SetInstrument(ToolKindFromString(setup.instruments.front()));
   if (setup.head != HeadChoice::kAny)
     session_.SetCameraHead({.is_upright = setup.head == HeadChoice::kUpright});
-  session_.SetDisturbances(DisturbancesOf(setup.disturbances, 0));
+  session_.SetDisturbances(DisturbancesOf(setup.disturbances));
   Advance(hands_);
   Advance(hands_);  // a frame ends with the first tick of the next one
 }

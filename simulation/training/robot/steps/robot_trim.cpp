@@ -16,11 +16,10 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kAtPortal = 2e-3;     // m, insertion between two bites
-constexpr double kRests = 0.4;         // s, in which tip and tissue come to rest before a bite
-constexpr double kJaws = 0.3;          // s, in which jaws close or open
-constexpr double kYields = 1.0;        // N at the tip, from which the hand yields
-constexpr double kPeakOfMean = 1.875;  // peak speed of a minimum-jerk leg per mean speed
+constexpr double kAtPortal = 2e-3;  // m, insertion between two bites
+constexpr double kRests = 0.4;      // s, in which tip and tissue come to rest before a bite
+constexpr double kJaws = 0.3;       // s, in which jaws close or open
+constexpr double kYields = 1.0;     // N at the tip, from which the hand yields
 // Costs of a point of the rest, per point of the regions, from a careful bite to a bold one.
 constexpr std::array kRest = {2.0, 1.0, 0.5};
 constexpr double kTried = 1e-3;  // m about a bite that was not worth it, in which none is tried
