@@ -23,7 +23,7 @@ constexpr int kClearOfTip = 2;
 
 }  // namespace
 
-Observer::Observer(const LoadedScene& loaded, std::vector<TargetPlace> targets,
+Observer::Observer(const LoadedScene& loaded, const std::vector<TargetPlace>& targets,
                    const DepthField& relief, const ScopeEye& eye)
     : optics_(OpticsOf(loaded.scene.scope, loaded.lens)), relief_(relief), eye_(eye) {
   if (targets.size() > static_cast<std::size_t>(kMostTargets))
@@ -31,7 +31,7 @@ Observer::Observer(const LoadedScene& loaded, std::vector<TargetPlace> targets,
                                                 targets.size(), kMostTargets));
   for (const Tissue& tissue : loaded.scene.tissues)
     portal_from_body_.push_back({tissue.pose.quaternion, tissue.pose.position});
-  for (TargetPlace& place : targets) {
+  for (const TargetPlace& place : targets) {
     Target& target = targets_.emplace_back();
     target.place = place;
     if (place.is_loose) target.place.normal = glm::dvec3(0.0);  // a ball has none

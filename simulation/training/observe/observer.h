@@ -25,8 +25,8 @@ class Observer {
  public:
   // `relief` and `eye` are those of the practice, and outlive this; the eye has the present shapes
   // of the tissues. Throws Error(kBadArgument) for more than kMostTargets.
-  Observer(const LoadedScene& loaded, std::vector<TargetPlace> targets, const DepthField& relief,
-           const ScopeEye& eye);
+  Observer(const LoadedScene& loaded, const std::vector<TargetPlace>& targets,
+           const DepthField& relief, const ScopeEye& eye);
 
   // Moves the targets with the tissues. Ties those of a tissue that was cut to its new skin.
   // Allocates nothing.
