@@ -1,6 +1,8 @@
 #include "simulation/scene/pixel_bounds.h"
 
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 namespace arthro {
@@ -14,7 +16,9 @@ PixelBounds DifferenceOf(const DepthMap& before, const DepthMap& after) {
     const float* a = &before.relief[static_cast<std::size_t>(y) * width];
     const float* b = &after.relief[static_cast<std::size_t>(y) * width];
     if (std::memcmp(a, b, width * sizeof(float)) == 0) continue;
-    const auto differs = [&](int x) { return std::memcmp(a + x, b + x, sizeof(float)) != 0; };
+    const auto differs = [&](int x) {
+      return std::bit_cast<std::uint32_t>(a[x]) != std::bit_cast<std::uint32_t>(b[x]);
+    };
     int left = 0, right = after.width;
     while (!differs(left)) ++left;
     while (!differs(right - 1)) --right;

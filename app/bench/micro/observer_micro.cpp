@@ -92,6 +92,7 @@ struct DemoSight {
       surfaces.push_back(OrEmpty(loaded.surfaces[i]));
       for (glm::dvec3& x : surfaces.back().vertices) x = loaded.scene.tissues[i].pose * x;
     }
+    meshes.reserve(surfaces.size());
     for (const SurfaceMesh& surface : surfaces) meshes.push_back({&surface});
     int compared = 0, different = 0;
     for (int i = 0; i < 40; ++i) {

@@ -64,8 +64,8 @@ const std::vector<std::string> kFirst = {
     action TEXT NOT NULL, subject TEXT NOT NULL))",
     // The start page and the cohort's page group by trainee and exercise; this index holds all that
     // they read.
-    "CREATE INDEX attempts_of_trainees ON attempts (trainee, exercise, started, mode, outcome, "
-    "duration)",
+    R"(CREATE INDEX attempts_of_trainees
+    ON attempts (trainee, exercise, started, mode, outcome, duration))",
     "CREATE INDEX attempts_of_sessions ON attempts (session)",
     "CREATE INDEX sessions_of_trainees ON sessions (trainee)",
     "CREATE INDEX forms_of_attempts ON forms (attempt)",

@@ -20,7 +20,7 @@ std::vector<Exercise>& ExercisesOf(authoring::Document& document) {
 template <class Entries>
 std::string FreeId(const Entries& all, const std::string& name) {
   for (int number = 1;; ++number) {
-    const std::string id = fmt::format("{}-{}", name, number);
+    std::string id = fmt::format("{}-{}", name, number);
     if (std::none_of(all.begin(), all.end(), [&](const auto& entry) { return entry.id == id; }))
       return id;
   }
@@ -28,6 +28,7 @@ std::string FreeId(const Entries& all, const std::string& name) {
 
 std::string FreeStepId(const std::vector<ExerciseStep>& steps) {
   std::vector<StepBase> bases;
+  bases.reserve(steps.size());
   for (const ExerciseStep& step : steps) bases.push_back(BaseOf(step));
   return FreeId(bases, "step");
 }

@@ -178,6 +178,7 @@ void Do(RobotMind& mind, const ResectStep& step) {
   // A novice takes a part that nobody marked.
   if (mind.Has(RobotFault::kCutsOutside)) {
     std::vector<Ball> beside;
+    beside.reserve(marked.size());
     for (const Ball& ball : marked) beside.push_back(BesideRegion(work.places.surface, ball));
     work.TurnTo(beside);
   }
