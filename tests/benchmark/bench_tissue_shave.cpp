@@ -51,10 +51,10 @@ void Run(const test::BenchReport& report) {
     kind.residual.push_back(step.step.residual);
     kind.most_iterations =
         std::max(kind.most_iterations, step.step.iterations / std::max(1, step.step.newton));
-    if (body.WantsRefresh()) {  // on another thread in practice
-      body.BeginRefresh();
-      body.RunRefresh();
-      body.TakeRefresh();
+    if (body.WantsSideWork()) {  // on another thread in practice
+      body.BeginSideWork();
+      body.RunSideWork();
+      body.TakeSideWork();
     }
   }
   const auto row = [&](const char* name, const Kind& kind) {

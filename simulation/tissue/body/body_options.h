@@ -12,8 +12,8 @@ struct BodyOptions {
   // One Newton iteration follows a slow hand; 19 of 20 steps need at most two. A tool that moves
   // onto other skin in a step needs up to eight. A residual left over moves the tissue in the next
   // step. A limit of three left one in 8 % of the steps of a soak test, a limit of eight in 2 %,
-  // and the slowest steps took no longer.
-  SolverOptions solver{.max_newton = 8};
+  // and the slowest steps took no longer; those are cut short by their work.
+  SolverOptions solver{.max_newton = 8, .max_work = 120};
   ToolContactOptions contact;
   ShaverOptions shaver;
   double sleep_speed = 2e-4;

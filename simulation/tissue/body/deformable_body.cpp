@@ -135,6 +135,7 @@ void DeformableBody::Impl::TakeTools(std::span<const WorldTool> tools) noexcept 
     tool.motion = goes_on ? body_from_tool.translation - tool.tip : glm::dvec3(0.0);
     if (!goes_on) {
       tool.grip = ToolGrip{};
+      tool.felt = TissueContact{};
       tool.trigger = CutTrigger{};
     }
     tool.kind = tools[i].shape.kind;
@@ -150,6 +151,18 @@ bool DeformableBody::Impl::IsTouchedSoon() const noexcept {
     if (tool.count > 0 && shape->skin_contact.IsNear(tool.Capsules(), reach)) return true;
   }
   return false;
+}
+
+void DeformableBody::Impl::LeaveUnsolved(std::span<const WorldTool> tools, double dt,
+                                         std::span<ToolCoupling> coupling) noexcept {
+  unsolved = dt;
+  for (std::size_t i = 0; i < tool_count; ++i) {
+    PlacedTool& tool = placed[i];
+    tool.tip -= tool.motion;  // the next step's motion is that of both
+    const glm::dvec3& tip = tools[i].now.portal_from_tool.translation;
+    if (i < coupling.size() && tool.count > 0 && tool.felt.tissue >= 0)
+      AddMoved(tool.felt, tip - tool.felt_at, coupling[i]);
+  }
 }
 
 void DeformableBody::Impl::AddCoupling(int tool, std::span<const ContactPoint> of_tools,
@@ -179,7 +192,7 @@ DeformableBody& DeformableBody::operator=(DeformableBody&&) noexcept = default;
 
 BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObstacle* obstacle,
                                 double dt, std::span<ToolCoupling> coupling) noexcept {
-  if (impl_->is_lost && !impl_->is_refreshing) {
+  if (impl_->is_lost && impl_->side_work == SideWork::kNone) {
     try {
       Reset();
     } catch (const std::exception&) {  // still no memory: stays as it is until there is some
@@ -194,8 +207,9 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
   };
   if (own.is_lost) return lost();
   own.TakeTools(tools);
-  if (own.spec.is_cuttable) own.PrepareToBeCut();
+  own.WantPreparation();
   if (own.is_asleep && !own.IsTouchedSoon()) {
+    for (PlacedTool& tool : own.placed) tool.felt = TissueContact{};
     report.is_asleep = true;
     return report;
   }
@@ -207,6 +221,14 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
       return lost();
     }
   }
+
+  if (report.was_cut && own.unsolved == 0.0) {
+    own.LeaveUnsolved(tools, dt, coupling);
+    for (const ToolCoupling& of_tool : coupling)
+      report.contacts += ContactWith(of_tool, own.spec.tissue) != nullptr;
+    return report;
+  }
+  dt += std::exchange(own.unsolved, 0.0);
 
   // Finds the present contacts.
   own.contacts.clear();
@@ -247,9 +269,13 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
   }
 
   // Sets what the servo feels until the next step.
-  for (std::size_t i = 0; i < own.tool_count && i < coupling.size(); ++i)
+  for (std::size_t i = 0; i < own.tool_count && i < coupling.size(); ++i) {
     own.AddCoupling(static_cast<int>(i), {own.contacts.data(), of_tools}, results.first(of_tools),
                     coupling[i]);
+    const TissueContact* felt = ContactWith(coupling[i], own.spec.tissue);
+    own.placed[i].felt = felt != nullptr ? *felt : TissueContact{};
+    own.placed[i].felt_at = tools[i].now.portal_from_tool.translation;
+  }
 
   // Refreshes an old preconditioner; lets a body at rest sleep.
   ++own.since_refresh;
@@ -267,32 +293,43 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
   return report;
 }
 
-bool DeformableBody::WantsRefresh() const noexcept { return impl_->wants_refresh; }
+bool DeformableBody::WantsSideWork() const noexcept {
+  return impl_->wants_refresh || impl_->wants_preparation;
+}
 
-void DeformableBody::BeginRefresh() {
+void DeformableBody::BeginSideWork() {
+  impl_->side_work = impl_->wants_preparation ? SideWork::kPreparation : SideWork::kFactor;
+  impl_->wants_preparation = false;
+  if (impl_->side_work == SideWork::kPreparation) return;
   impl_->wants_refresh = false;
   impl_->since_refresh = 0;
   impl_->solver.BeginRefresh();
-  impl_->is_refreshing = true;
 }
 
-void DeformableBody::RunRefresh() noexcept { impl_->solver.RunRefresh(); }
+void DeformableBody::RunSideWork() noexcept {
+  if (impl_->side_work == SideWork::kFactor) return impl_->solver.RunRefresh();
+  try {
+    impl_->prepared = impl_->PreparedCut();
+  } catch (const std::exception&) {  // no memory: tried again at the cut, and reported
+  }
+}
 
-void DeformableBody::TakeRefresh() noexcept {
-  impl_->solver.TakeRefreshed();
-  impl_->is_refreshing = false;
+void DeformableBody::TakeSideWork() noexcept {
+  if (impl_->side_work == SideWork::kFactor) impl_->solver.TakeRefreshed();
+  if (impl_->cut == nullptr) impl_->cut = std::move(impl_->prepared);
+  impl_->side_work = SideWork::kNone;
 }
 
 void DeformableBody::SetBeforeCut(std::function<void()> finish) {
-  impl_->finish_refresh = std::move(finish);
+  impl_->finish_side_work = std::move(finish);
 }
 
 void DeformableBody::Reset() {
   const std::uint64_t version = impl_->shape_version;
-  std::function<void()> finish = impl_->finish_refresh;
+  std::function<void()> finish = impl_->finish_side_work;
   if (finish) finish();
   impl_ = std::make_unique<Impl>(impl_->spec, impl_->options);
-  impl_->finish_refresh = std::move(finish);
+  impl_->finish_side_work = std::move(finish);
   impl_->shape_version += version;
 }
 

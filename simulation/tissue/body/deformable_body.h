@@ -84,22 +84,24 @@ class DeformableBody {
   DeformableBody& operator=(DeformableBody&&) noexcept;
 
   // `coupling` has one entry per tool, to which contacts of this body are added. `obstacle`
-  // supports the body, or is null.
+  // supports the body, or is null. A step that cuts makes the new shape only; the next one solves
+  // for the time of both, so that no step takes the time of a cut and of a new factor.
   BodyReport Step(std::span<const WorldTool> tools, const RigidObstacle* obstacle, double dt,
                   std::span<ToolCoupling> coupling) noexcept;
 
-  // The solver's factor is renewed on another thread between Begin and Take.
-  bool WantsRefresh() const noexcept;
-  void BeginRefresh();
-  void RunRefresh() noexcept;
-  void TakeRefresh() noexcept;
-  // Sets a function that is called before a cut, which needs a new factor at once. It waits for a
-  // factor in preparation elsewhere and takes it.
+  // Work that another thread does between Begin and Take, beside the steps: a new factor, or the
+  // preparation of the first cut, when a cutting tool comes near. Without it the cut prepares.
+  bool WantsSideWork() const noexcept;
+  void BeginSideWork();
+  void RunSideWork() noexcept;
+  void TakeSideWork() noexcept;
+  // Sets a function that is called before a cut. It waits for work that runs elsewhere and takes
+  // it.
   void SetBeforeCut(std::function<void()> finish);
 
   void Reset();  // to the untouched state: the author's cuts stay
   // Returns true after a cut ran out of memory: the body must not be shown. It becomes whole again
-  // at the first step with enough memory and no refresh in progress.
+  // at the first step with enough memory and no work beside it.
   bool IsLost() const noexcept;
 
   const BodySpec& spec() const;

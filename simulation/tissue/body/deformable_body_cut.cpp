@@ -17,7 +17,7 @@
 namespace arthro::simulation {
 namespace {
 
-// Distance at which a cutting tool triggers the preparation of the tissue (50 ms).
+// Distance at which a cutting tool triggers the preparation of the tissue.
 constexpr double kPrepareReach = 5e-3;  // m
 
 constexpr double kSkinReach = 2.5;  // spacings outside the tissue that a cut must know
@@ -191,25 +191,26 @@ Box3 DeformableBody::Impl::RestBoxOf(const Capsule& tool) {
   return {rest.low - 2.0 * field.spacing(), rest.high + 2.0 * field.spacing()};
 }
 
-void DeformableBody::Impl::PrepareToBeCut() noexcept {
-  for (std::size_t i = 0; i < tool_count && cut == nullptr; ++i) {
-    const PlacedTool& tool = placed[i];
-    const bool can_cut = tool.kind == ToolKind::kPunch || tool.kind == ToolKind::kShaver;
-    if (tool.count == 0 || !can_cut || !shape->skin_contact.IsNear({&tool.bite, 1}, kPrepareReach))
-      continue;
-    try {
-      BeginCutting();
-    } catch (const std::exception&) {  // no memory: tried again at the cut, and reported
-      cut.reset();
-    }
-  }
+bool DeformableBody::Impl::IsAboutToCut(const PlacedTool& tool) const noexcept {
+  const bool can_cut = tool.kind == ToolKind::kPunch || tool.kind == ToolKind::kShaver;
+  return tool.count > 0 && can_cut && shape->skin_contact.IsNear({&tool.bite, 1}, kPrepareReach);
+}
+
+void DeformableBody::Impl::WantPreparation() noexcept {
+  if (!spec.is_cuttable || cut != nullptr || side_work == SideWork::kPreparation) return;
+  wants_preparation = std::any_of(placed.begin(), placed.begin() + tool_count,
+                                  [&](const PlacedTool& tool) { return IsAboutToCut(tool); });
+}
+
+bool DeformableBody::Impl::AwaitsPreparation(const PlacedTool& tool) const noexcept {
+  return cut == nullptr && finish_side_work && IsAboutToCut(tool);
 }
 
 bool DeformableBody::Impl::CutWithTools(std::span<const WorldTool> tools, double dt) {
   bool was_cut = false;
   for (std::size_t i = 0; i < tool_count; ++i) {
     PlacedTool& tool = placed[i];
-    if (tool.count == 0) continue;
+    if (tool.count == 0 || AwaitsPreparation(tool)) continue;
     double time = 0;
     const ToolCut cut_now = TriggerCut(tools[i].shape.kind, tools[i].now, dt, tool.trigger, time);
     if (cut_now != ToolCut::kNone) was_cut |= CutWith(tool.bite, cut_now == ToolCut::kShave, time);
@@ -246,24 +247,24 @@ bool DeformableBody::Impl::PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place
   return true;
 }
 
-// Creates the data that cutting needs, at the first cut.
-void DeformableBody::Impl::BeginCutting() {
-  cut = std::make_unique<CutState>(CutState{.cutter = MeshCutter(spec.mesh, field.spacing()),
-                                            .carver = SkinCarver(spec.surface, field),
-                                            .original = field});
+std::unique_ptr<CutState> DeformableBody::Impl::PreparedCut() const {
+  auto made = std::make_unique<CutState>(CutState{.cutter = MeshCutter(spec.mesh, field.spacing()),
+                                                  .carver = SkinCarver(spec.surface, field),
+                                                  .original = field});
   for (std::size_t v = 0; v < shape->skin.point.size(); ++v) {
-    cut->element_of_vertex.push_back(shape->skin.point[v].element);
-    cut->whole_vertex.push_back(static_cast<int>(v));
+    made->element_of_vertex.push_back(shape->skin.point[v].element);
+    made->whole_vertex.push_back(static_cast<int>(v));
   }
-  cut->cutter.Rebuild(field);
-  cut->element_of_node = ElementsOfNodes(spec.mesh, field.grid());
-  cut->point_of_node.assign(cut->element_of_node.size(), -1);
-  cut->is_near.assign(static_cast<std::size_t>(spec.mesh.ElementCount()), 0);
+  made->cutter.Rebuild(field);
+  made->element_of_node = ElementsOfNodes(spec.mesh, field.grid());
+  made->point_of_node.assign(made->element_of_node.size(), -1);
+  made->is_near.assign(static_cast<std::size_t>(spec.mesh.ElementCount()), 0);
+  return made;
 }
 
 // Makes the author's cuts, which do not count as the trainee's.
 void DeformableBody::Impl::MakeAuthorsCuts() {
-  BeginCutting();
+  cut = PreparedCut();
   const MadeCuts made = MakeCuts(field, spec.cuts, spec.fixed);
   if (made.changed.empty()) return cut.reset();
   FollowField(made.changed);
@@ -279,7 +280,7 @@ void DeformableBody::Impl::CountRegions() {
 
 bool DeformableBody::Impl::CutWith(const Capsule& tool, bool is_shaver, double dt) {
   if (!shape->skin_contact.IsNear({&tool, 1}, field.spacing())) return false;
-  if (cut == nullptr) BeginCutting();  // it came from far off in one step
+  if (cut == nullptr) cut = PreparedCut();
   const Box3 box = RestBoxOf(tool);
   if (box.empty()) return false;
   const Deformation place_of = [this](const glm::dvec3& rest, glm::dvec3& place) {
@@ -341,7 +342,7 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
   const std::vector<int> from = PreviousNodes(after);
   shape = std::make_unique<BodyShape>(after.mesh, after.share, spec, std::move(skin),
                                       std::move(carved.is_fresh), field, shape->model.get());
-  if (finish_refresh) finish_refresh();
+  if (finish_side_work) finish_side_work();
   solver.Replace(shape->model, shape->fixed, from);
   wants_refresh = false;
   since_refresh = 0;

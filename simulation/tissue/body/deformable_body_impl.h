@@ -49,6 +49,8 @@ struct CutState {
   Shaver shaver{};
 };
 
+enum class SideWork { kNone, kFactor, kPreparation };
+
 // Tool in the body's own frame.
 struct PlacedTool {
   std::array<Capsule, kMaxCapsules> capsules;
@@ -57,6 +59,8 @@ struct PlacedTool {
   ToolKind kind = ToolKind::kNone;
   glm::dvec3 tip{0.0}, motion{0.0};
   ToolGrip grip;
+  TissueContact felt;  // of the last solved step, with its tip; tissue −1: none
+  glm::dvec3 felt_at{0.0};
   Capsule bite;  // volume removed when it closes or runs
   CutTrigger trigger;
   std::span<const Capsule> Capsules() const {
@@ -72,12 +76,21 @@ struct DeformableBody::Impl {
   bool IsTouchedSoon() const noexcept;
   void AddCoupling(int tool, std::span<const ContactPoint> of_tools,
                    std::span<const ContactResult> results, ToolCoupling& coupling) noexcept;
-  // Prepares cutting when a cutting tool comes near, so that the first bite need not take 50 ms.
-  void PrepareToBeCut() noexcept;
+  // Ends a step that cuts without solving: the contacts stay as the motion of the tools leaves
+  // them.
+  void LeaveUnsolved(std::span<const WorldTool> tools, double dt,
+                     std::span<ToolCoupling> coupling) noexcept;
+  bool IsAboutToCut(const PlacedTool& tool) const noexcept;
+  // Asks for the preparation of the first cut when a cutting tool comes near; it takes longer than
+  // a step.
+  void WantPreparation() noexcept;
+  // Returns whether the tool cuts some steps later, since the body is being prepared elsewhere.
+  bool AwaitsPreparation(const PlacedTool& tool) const noexcept;
   // Applies bites and shavings of this step; returns true if something was removed.
   bool CutWithTools(std::span<const WorldTool> tools, double dt);
   bool CutWith(const Capsule& tool, bool is_shaver, double dt);
-  void BeginCutting();
+  // Reads only what no step changes before the first cut.
+  std::unique_ptr<CutState> PreparedCut() const;
   void MakeAuthorsCuts();
   void CountRegions();
   // Updates elements, state, solver and skin after the field changed within `box`.
@@ -95,7 +108,8 @@ struct DeformableBody::Impl {
   ElementFinder finder;  // for the whole mesh
   SolidField field;
   std::unique_ptr<BodyShape> shape;
-  std::unique_ptr<CutState> cut;  // null: whole
+  std::unique_ptr<CutState> cut;       // null: whole
+  std::unique_ptr<CutState> prepared;  // by work beside the steps
   CutReport taken;
   ImplicitSolver solver;
   ObstacleContactOptions on_obstacle;
@@ -108,11 +122,12 @@ struct DeformableBody::Impl {
   std::size_t tool_count = 0;
   std::uint64_t shape_version = 0;
   bool is_asleep = true;  // at rest until touched
+  double unsolved = 0;    // s, time of a step that cut, which the next one solves with its own
   int quiet = 0, since_good = 0, since_refresh = 0;
-  bool wants_refresh = false;
-  std::function<void()> finish_refresh;  // waits for one that runs elsewhere
-  bool is_refreshing = false;            // between Begin and Take another thread may use the solver
-  bool is_lost = false;                  // a cut failed midway: restored when no thread works on it
+  bool wants_refresh = false, wants_preparation = false;
+  std::function<void()> finish_side_work;  // waits for work that runs elsewhere
+  SideWork side_work = SideWork::kNone;    // between Begin and Take another thread may do it
+  bool is_lost = false;  // a cut failed midway: restored when no thread works on it
 };
 
 }  // namespace arthro::simulation

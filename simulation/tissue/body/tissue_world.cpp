@@ -10,9 +10,9 @@
 namespace arthro::simulation {
 namespace {
 
-// Steps from the start of a new factor to its use, whether ready or waited for. The constant number
-// gives the same bits in fast and slow sessions.
-constexpr int kRefreshSteps = 2;
+// Steps from the start of work beside them to its use, whether ready or waited for. The constant
+// number gives the same bits in fast and slow sessions.
+constexpr int kSideWorkSteps = 2;
 
 // Copies the changes of one tissue since `shown` was last filled.
 template <class Body>
@@ -49,26 +49,26 @@ struct TissueWorld::Impl {
     double step_ms = 0;
   };
 
-  void FinishRefresh() noexcept {
-    if (refreshing == nullptr) return;
+  void FinishSideWork() noexcept {
+    if (worked_on == nullptr) return;
     worker.Wait();
-    refreshing->TakeRefresh();
-    refreshing = nullptr;
+    worked_on->TakeSideWork();
+    worked_on = nullptr;
   }
 
-  // Refreshes the factor of one body at a time.
-  void Refresh() noexcept {
-    if (refreshing != nullptr) {
-      if (++refresh_age < kRefreshSteps) return;
-      FinishRefresh();
+  // Does the work of one body at a time.
+  void WorkBeside() noexcept {
+    if (worked_on != nullptr) {
+      if (++work_age < kSideWorkSteps) return;
+      FinishSideWork();
     }
     for (Held& held : bodies) {
-      if (!held.body.WantsRefresh()) continue;
-      refreshing = &held.body;
-      refresh_age = 0;
-      refreshing->BeginRefresh();
-      worker.Start([](void* body) noexcept { static_cast<DeformableBody*>(body)->RunRefresh(); },
-                   refreshing);
+      if (!held.body.WantsSideWork()) continue;
+      worked_on = &held.body;
+      work_age = 0;
+      worked_on->BeginSideWork();
+      worker.Start([](void* body) noexcept { static_cast<DeformableBody*>(body)->RunSideWork(); },
+                   worked_on);
       return;
     }
   }
@@ -117,8 +117,8 @@ struct TissueWorld::Impl {
   std::shared_ptr<const RigidObstacle> obstacle;
   ToolCoupling coupling;
   std::uint64_t step = 0;
-  DeformableBody* refreshing = nullptr;
-  int refresh_age = 0;
+  DeformableBody* worked_on = nullptr;
+  int work_age = 0;
   BackgroundWorker worker;
 };
 
@@ -129,7 +129,7 @@ TissueWorld::TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options
   impl_->bodies.reserve(specs.size());
   for (BodySpec& spec : specs) {
     impl_->bodies.push_back({MakeBody(std::move(spec), options), {}, 0});
-    impl_->bodies.back().body.SetBeforeCut([own = impl_.get()] { own->FinishRefresh(); });
+    impl_->bodies.back().body.SetBeforeCut([own = impl_.get()] { own->FinishSideWork(); });
   }
   for (LayerSpec& layer : layers) impl_->layers.push_back({LayerSkin(std::move(layer)), 0});
   impl_->implicit = std::move(implicit);
@@ -144,7 +144,7 @@ void TissueWorld::Step(const Instrumentation& instrument, double dt) noexcept {
   Impl& own = *impl_;
   WorldTool& tool = own.tools[static_cast<std::size_t>(instrument.kind)];
   tool.now = instrument.now;
-  own.Refresh();
+  own.WorkBeside();
   ToolCoupling coupling;
   coupling.step = ++own.step;
   coupling.tip = instrument.now.portal_from_tool.translation;
@@ -201,7 +201,7 @@ bool TissueWorld::IsEmpty() const noexcept {
 }
 
 void TissueWorld::Reset() {
-  impl_->FinishRefresh();
+  impl_->FinishSideWork();
   for (Impl::Held& held : impl_->bodies) held.body.Reset();
   for (Impl::HeldLayer& held : impl_->layers) held.skin.Release();
   for (ImplicitBody& body : impl_->implicit) body.Reset();

@@ -127,6 +127,39 @@ void AddContacts(std::span<const ContactPoint> contacts, std::span<const Contact
   if (!IsFinite(coupling)) coupling.is_faulty = true;
 }
 
+void AddMoved(const TissueContact& contact, const glm::dvec3& way,
+              ToolCoupling& coupling) noexcept {
+  TissueContact moved = contact;
+  const double deeper = -glm::dot(contact.normal, way);
+  const glm::dvec3 aside = AtMost(way + deeper * contact.normal, kBendReach);
+  const glm::dvec3 bend = contact.curvature * aside;
+  moved.normal = glm::normalize(contact.normal - bend);
+  moved.depth = contact.depth + deeper + 0.5 * glm::dot(aside, bend);
+  moved.rub = glm::dvec3(0.0);
+  if (const double size = PushAt(contact, moved.depth); size > 0.0) {
+    if (contact.depth > 0.0)
+      moved.stiffness =
+          std::min(contact.spring,
+                   contact.stiffness * std::pow(moved.depth / contact.depth, contact.power - 1.0));
+    moved.power = std::clamp(moved.stiffness * moved.depth / size, kLeastPower, kMostPower);
+    moved.depth = moved.power * size / moved.stiffness;
+    const glm::dvec3 pull = contact.rub - contact.spring * way;
+    moved.rub = AtMost(pull - glm::dot(pull, moved.normal) * moved.normal, contact.friction * size);
+  }
+  const glm::dmat3 across = glm::dmat3(1.0) - glm::outerProduct(moved.normal, moved.normal);
+  moved.curvature = across * contact.curvature * across;
+  Keep(coupling, moved);
+  if (!IsFinite(coupling)) coupling.is_faulty = true;
+}
+
+const TissueContact* ContactWith(const ToolCoupling& coupling, int tissue) noexcept {
+  for (int i = 0; i < coupling.count; ++i)
+    if (const TissueContact& contact = coupling.contact[static_cast<std::size_t>(i)];
+        contact.tissue == tissue)
+      return &contact;
+  return nullptr;
+}
+
 CoupledForce ForceOf(const ToolCoupling& coupling, const glm::dvec3& tip) noexcept {
   CoupledForce result;
   if (coupling.is_faulty) return result;

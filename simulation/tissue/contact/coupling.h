@@ -65,6 +65,13 @@ void AddContacts(std::span<const ContactPoint> contacts, std::span<const Contact
                  int owner, const TouchedSkin& skin, double spring,
                  const glm::dquat& portal_from_body, int tissue, ToolCoupling& coupling) noexcept;
 
+// Adds the contact of a body that was not solved in this step, as it is after a motion of the tip
+// by `way`, m. The force is that of the coupling of the last step at the new tip.
+void AddMoved(const TissueContact& contact, const glm::dvec3& way, ToolCoupling& coupling) noexcept;
+
+// Returns the contact with a tissue; nullptr: none.
+const TissueContact* ContactWith(const ToolCoupling& coupling, int tissue) noexcept;
+
 struct CoupledForce {
   glm::dvec3 force{0.0};  // on the tool's tip
   int tissue = -1;        // tissue with the largest part; −1: none

@@ -29,7 +29,7 @@ void SparseFactor::TakeWorkMemory(SparseFactor& other) noexcept {
     std::swap(this->*buffer, other.*buffer);
 }
 
-double SparseFactor::Factor(const BlockMatrix& a, std::span<const double> added) {
+void SparseFactor::TakeRoom() {
   const FactorPlan& p = *plan_;
   const std::int64_t widest = p.widest_, tallest = RoundUpToStrip(p.tallest_);
   work_.resize(p.panel_size_ + kStrip);
@@ -40,6 +40,17 @@ double SparseFactor::Factor(const BlockMatrix& a, std::span<const double> added)
   head_.resize(p.supernode_.size());
   next_.resize(p.supernode_.size());
   position_.resize(p.supernode_.size());
+}
+
+double SparseFactor::FactorWithin(const BlockMatrix& a, std::span<const double> added,
+                                  double shift) {
+  TakeRoom();
+  if (TryFactor(a, added, 0.0)) return 0.0;
+  return TryFactor(a, added, shift) ? shift : -1.0;
+}
+
+double SparseFactor::Factor(const BlockMatrix& a, std::span<const double> added) {
+  TakeRoom();
   if (TryFactor(a, added, 0.0)) return 0.0;
   for (double shift = 1e-6; shift < 1e3; shift *= 10.0)
     if (TryFactor(a, added, shift)) return shift;

@@ -89,6 +89,9 @@ class SparseFactor {
   // adds a growing fraction of its own diagonal. Returns that fraction (0: none needed), or −1 for
   // values that are not finite. May allocate the first time.
   double Factor(const BlockMatrix& a, std::span<const double> added);
+  // The same with no fraction or with this one only: −1 where both are too little. Ends sooner for
+  // a matrix that is far from positive definite.
+  double FactorWithin(const BlockMatrix& a, std::span<const double> added, double shift);
 
   // Takes over the work memory of another factor, because getting pages from the system costs a
   // tenth of the time. Not to be called while either one factors.
@@ -106,6 +109,7 @@ class SparseFactor {
   const std::shared_ptr<const FactorPlan>& shared_plan() const { return plan_; }
 
  private:
+  void TakeRoom();
   bool TryFactor(const BlockMatrix& a, std::span<const double> added, double shift);
 
   std::shared_ptr<const FactorPlan> plan_;

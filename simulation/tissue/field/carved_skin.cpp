@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <map>
+#include <cstdint>
+#include <unordered_map>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -12,7 +13,6 @@
 
 #include "simulation/scene/mesh/vertex_normals.h"
 #include "simulation/tissue/field/grid_cell.h"
-#include "simulation/tissue/field/polygonise.h"
 
 namespace arthro::simulation {
 namespace {
@@ -36,6 +36,7 @@ class RemovedVolume {
   explicit RemovedVolume(const SolidField& field)
       : grid_(field.grid()), value_(field.cut_values().begin(), field.cut_values().end()) {
     if (value_.empty()) return;
+    FindNodes();
     SumNodes();
     TakeSpaceBeside(field.values());
   }
@@ -50,15 +51,16 @@ class RemovedVolume {
   bool Meets(const glm::dvec3& low, const glm::dvec3& high) const {
     if (glm::any(glm::lessThan(high, box_.low)) || glm::any(glm::lessThan(box_.high, low)))
       return false;
-    std::array<int, 3> first, last;
+    std::array<int, 3> first, last;  // nodes from the first removed one on; the last is left out
     for (int a = 0; a < 3; ++a) {
       const auto i = static_cast<std::size_t>(a);
       const double end = grid_.count[i] - 1;
       const auto node = [&](double x) {
         return std::clamp((x - grid_.origin[a]) / grid_.spacing, 0.0, end);
       };
-      first[i] = static_cast<int>(std::floor(node(low[a])));
-      last[i] = static_cast<int>(std::ceil(node(high[a]))) + 1;
+      const auto from_first = [&](int n) { return std::clamp(n - first_[i], 0, size_[i]); };
+      first[i] = from_first(static_cast<int>(std::floor(node(low[a]))));
+      last[i] = from_first(static_cast<int>(std::ceil(node(high[a]))) + 1);
     }
     int sum = 0;
     for (int corner = 0; corner < 8; ++corner) {
@@ -99,26 +101,42 @@ class RemovedVolume {
         }
   }
   std::size_t SumIndex(int i, int j, int k) const {
-    const auto nx = static_cast<std::size_t>(grid_.count[0]) + 1,
-               ny = static_cast<std::size_t>(grid_.count[1]) + 1;
+    const auto nx = static_cast<std::size_t>(size_[0]) + 1,
+               ny = static_cast<std::size_t>(size_[1]) + 1;
     return (static_cast<std::size_t>(k) * ny + static_cast<std::size_t>(j)) * nx +
            static_cast<std::size_t>(i);
   }
-  // Sums over the boxes from the first node, so that a box is tested at its eight corners.
-  void SumNodes() {
+  // Finds the box of the removed nodes.
+  void FindNodes() {
     const auto& n = grid_.count;
-    sum_.assign(static_cast<std::size_t>(n[0] + 1) * static_cast<std::size_t>(n[1] + 1) *
-                    static_cast<std::size_t>(n[2] + 1),
-                0);
+    std::array<int, 3> last{-1, -1, -1};
+    first_ = n;
     for (int k = 0; k < n[2]; ++k)
       for (int j = 0; j < n[1]; ++j) {
+        const float* row = &value_[grid_.Index(0, j, k)];
+        int low = 0, high = n[0] - 1;
+        while (low < n[0] && !(row[low] > 0)) ++low;
+        if (low == n[0]) continue;
+        while (!(row[high] > 0)) --high;
+        first_ = {std::min(first_[0], low), std::min(first_[1], j), std::min(first_[2], k)};
+        last = {std::max(last[0], high), std::max(last[1], j), std::max(last[2], k)};
+      }
+    size_ = {std::max(0, last[0] - first_[0] + 1), std::max(0, last[1] - first_[1] + 1),
+             std::max(0, last[2] - first_[2] + 1)};
+    if (size_[0] == 0) return;
+    box_ = {grid_.Place(first_[0], first_[1], first_[2]) - grid_.spacing,
+            grid_.Place(last[0], last[1], last[2]) + grid_.spacing};
+  }
+  // Sums over the boxes from the first removed node, so that a box is tested at its eight corners.
+  void SumNodes() {
+    sum_.assign(static_cast<std::size_t>(size_[0] + 1) * static_cast<std::size_t>(size_[1] + 1) *
+                    static_cast<std::size_t>(size_[2] + 1),
+                0);
+    for (int k = 0; k < size_[2]; ++k)
+      for (int j = 0; j < size_[1]; ++j) {
         int row = 0;
-        for (int i = 0; i < n[0]; ++i) {
-          if (value_[grid_.Index(i, j, k)] > 0) {
-            ++row;
-            const glm::dvec3 place = grid_.Place(i, j, k);
-            box_ = Union(box_, {place - grid_.spacing, place + grid_.spacing});
-          }
+        for (int i = 0; i < size_[0]; ++i) {
+          row += value_[grid_.Index(first_[0] + i, first_[1] + j, first_[2] + k)] > 0;
           sum_[SumIndex(i + 1, j + 1, k + 1)] = row + sum_[SumIndex(i + 1, j, k + 1)] +
                                                 sum_[SumIndex(i + 1, j + 1, k)] -
                                                 sum_[SumIndex(i + 1, j, k)];
@@ -128,12 +146,21 @@ class RemovedVolume {
 
   const FieldGrid& grid_;
   std::vector<float> value_;
+  std::array<int, 3> first_{}, size_{};  // box of the removed nodes
   std::vector<int> sum_;
   Box3 box_ = kEmptyBox;  // holds every removed node and the cells around it
 };
 
 using Edge = std::pair<int, int>;
 Edge Between(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+struct EdgeHash {
+  std::size_t operator()(const Edge& edge) const {
+    return (static_cast<std::uint64_t>(edge.first) << 32 |
+            static_cast<std::uint64_t>(edge.second)) *
+               0x9e3779b97f4a7c15u >>
+           16;
+  }
+};
 
 // Triangles that are divided and clipped, with the vertices that this adds.
 struct Draft {
@@ -141,7 +168,7 @@ struct Draft {
   std::vector<glm::dvec3> normal;  // zero: not smooth there
   std::vector<double> value;       // positive: removed
   std::vector<std::array<int, 3>> triangles;
-  std::map<Edge, int> middle, crossing;
+  std::unordered_map<Edge, int, EdgeHash> middle, crossing;
 
   const glm::dvec3& At(int v) const { return place[static_cast<std::size_t>(v)]; }
   int Add(const glm::dvec3& x, const glm::dvec3& n) {
@@ -266,7 +293,7 @@ double SkinCarver::DistanceFromWhole(const glm::dvec3& x) const {
   return glm::dot(x - near.place, out) < 0 ? -distance : distance;
 }
 
-CarvedSkin SkinCarver::Carve(const SolidField& field) const {
+CarvedSkin SkinCarver::Carve(const SolidField& field) {
   CarvedSkin skin;
   const RemovedVolume removed(field);
   const double spacing = field.spacing();
@@ -290,14 +317,21 @@ CarvedSkin SkinCarver::Carve(const SolidField& field) const {
 
   // Clips the faces of the cuts by the whole surface.
   Draft inside;
-  const SurfaceMesh faces = FieldSkin(field, removed.values()).surface();
+  faces_.Update(field, removed.values());
+  const SurfaceMesh& faces = faces_.surface();
   inside.place = faces.vertices;
   inside.normal.assign(faces.vertices.size(), glm::dvec3(0.0));
   inside.triangles = faces.triangles;
   const auto on_face = [&](const glm::dvec3& x) {
     return DistanceFromWhole(x) - kThrough * spacing;
   };
-  for (const glm::dvec3& x : faces.vertices) inside.value.push_back(on_face(x));
+  const std::vector<double> known = std::exchange(outside_, {});
+  for (std::size_t v = 0; v < faces.vertices.size(); ++v) {
+    const int before = faces_.previous()[v];
+    outside_.push_back(before >= 0 ? known[static_cast<std::size_t>(before)]
+                                   : DistanceFromWhole(faces.vertices[v]));
+    inside.value.push_back(outside_.back() - kThrough * spacing);
+  }
   inside.triangles = inside.Clipped(on_face);
 
   // Numbers the vertices that are left: those of the whole surface first, in its order.

@@ -9,6 +9,7 @@
 
 #include "simulation/scene/mesh/surface_finder.h"
 #include "simulation/scene/mesh/surface_mesh.h"
+#include "simulation/tissue/field/polygonise.h"
 #include "simulation/tissue/field/solid_field.h"
 
 namespace arthro::simulation {
@@ -24,8 +25,9 @@ class SkinCarver {
   // `whole`: the closed surface that `field`, which is not yet cut, was made from.
   SkinCarver(SurfaceMesh whole, SolidField field);
   // Triangles beside a cut are divided to about the field's spacing, along a curved surface where
-  // the whole surface is smooth.
-  CarvedSkin Carve(const SolidField& field) const;
+  // the whole surface is smooth. Keeps the faces of the cuts for the next call, which makes those
+  // anew that changed; the result is the same.
+  CarvedSkin Carve(const SolidField& field);
 
  private:
   // Returns the distance from the whole surface, positive outside: exact within a spacing of it,
@@ -36,6 +38,8 @@ class SkinCarver {
   SolidField field_of_whole_;
   std::vector<glm::dvec3> normals_, smooth_normals_;  // the latter zero at creases
   SurfaceFinder finder_;
+  FieldSkin faces_;              // of the cuts, as they were last
+  std::vector<double> outside_;  // DistanceFromWhole per vertex of faces_
 };
 
 }  // namespace arthro::simulation

@@ -71,6 +71,23 @@ glm::dvec3 ComputeVertex(const std::array<double, 8>& value, const CellPatches& 
   return x;
 }
 
+std::size_t BrickAt(const std::array<int, 3>& bricks, const Cell& b) {
+  return static_cast<std::size_t>((b[2] * bricks[1] + b[1]) * bricks[0] + b[0]);
+}
+
+// Calls test(first, count) for the rows of the nodes at the cells of a brick, until one returns
+// false. Returns whether all were true.
+template <class Test>
+bool EachRow(const FieldGrid& grid, const Cell& b, const Test& test) {
+  const auto end = [&](std::size_t a) { return std::min((b[a] + 1) * kBrick, grid.count[a] - 1); };
+  const int first = b[0] * kBrick;
+  for (int k = b[2] * kBrick; k <= end(2); ++k)
+    for (int j = b[1] * kBrick; j <= end(1); ++j)
+      if (!test(grid.Index(first, j, k), static_cast<std::size_t>(end(0) - first + 1)))
+        return false;
+  return true;
+}
+
 }  // namespace
 
 // Read access to the cells of a field.
@@ -192,13 +209,40 @@ class FieldSkin::Cells {
   std::array<int, 3> bricks_;
 };
 
-SkinUpdate FieldSkin::UpdateFrom(const SolidField& field, std::span<const float> values) {
+bool FieldSkin::HasGridOf(const SolidField& field) const {
+  const FieldGrid& grid = field.grid();
+  return !bricks_.empty() && grid.origin == grid_.origin && grid.spacing == grid_.spacing &&
+         grid.count == grid_.count;
+}
+
+SkinUpdate FieldSkin::Update(const SolidField& field) {
+  const bool is_new = !HasGridOf(field) || field.version() < version_;
+  const auto versions = field.brick_versions();
+  const std::array<int, 3> bricks = field.bricks();
+  const SkinUpdate update = UpdateBricks(field, field.values(), is_new, [&](const Cell& b) {
+    return versions[BrickAt(bricks, b)] > version_;
+  });
+  version_ = field.version();
+  return update;
+}
+
+SkinUpdate FieldSkin::Update(const SolidField& field, std::span<const float> values) {
+  const bool is_new = !HasGridOf(field) || values_.size() != values.size();
+  const SkinUpdate update = UpdateBricks(field, values, is_new, [&](const Cell& b) {
+    return !EachRow(field.grid(), b, [&](std::size_t first, std::size_t count) {
+      return std::equal(&values[first], &values[first] + count, &values_[first]);
+    });
+  });
+  values_.assign(values.begin(), values.end());
+  return update;
+}
+
+template <class HasChanged>
+SkinUpdate FieldSkin::UpdateBricks(const SolidField& field, std::span<const float> values,
+                                   bool is_new, const HasChanged& changed) {
   SkinUpdate update;
   const FieldGrid& grid = field.grid();
   const std::array<int, 3> brick_count = field.bricks();
-  const bool is_new = bricks_.empty() || grid.origin != grid_.origin ||
-                      grid.spacing != grid_.spacing || grid.count != grid_.count ||
-                      field.version() < version_;
   if (is_new) {
     bricks_.assign(static_cast<std::size_t>(brick_count[0]) *
                        static_cast<std::size_t>(brick_count[1]) *
@@ -206,31 +250,24 @@ SkinUpdate FieldSkin::UpdateFrom(const SolidField& field, std::span<const float>
                    {});
     grid_ = grid;
   }
-  const auto index = [&](const Cell& b) {
-    const int at = (b[2] * brick_count[1] + b[1]) * brick_count[0] + b[0];
-    return static_cast<std::size_t>(at);
-  };
+  const auto index = [&](const Cell& b) { return BrickAt(brick_count, b); };
   const auto for_each_brick = [&](auto&& visit) {
     for (int k = 0; k < brick_count[2]; ++k)
       for (int j = 0; j < brick_count[1]; ++j)
         for (int i = 0; i < brick_count[0]; ++i) visit(Cell{i, j, k});
   };
-  const auto versions = field.brick_versions();
   // A new skin needs no brick whose nodes are all on one side.
   const auto is_flat = [&](const Cell& b) {
-    const auto end = [&](std::size_t a) {
-      return std::min((b[a] + 1) * kBrick, grid.count[a] - 1);
-    };
     const bool side = values[grid.Index(b[0] * kBrick, b[1] * kBrick, b[2] * kBrick)] < 0;
-    for (int k = b[2] * kBrick; k <= end(2); ++k)
-      for (int j = b[1] * kBrick; j <= end(1); ++j)
-        for (int i = b[0] * kBrick; i <= end(0); ++i)
-          if ((values[grid.Index(i, j, k)] < 0) != side) return false;
-    return true;
+    return EachRow(grid, b, [&](std::size_t first, std::size_t count) {
+      for (std::size_t i = first; i < first + count; ++i)
+        if ((values[i] < 0) != side) return false;
+      return true;
+    });
   };
-  const auto has_changed = [&](const Cell& b) {
-    return is_new ? !is_flat(b) : versions[index(b)] > version_;
-  };
+  std::vector<unsigned char> is_other(bricks_.size(), 0);
+  for_each_brick([&](const Cell& b) { is_other[index(b)] = is_new ? !is_flat(b) : changed(b); });
+  const auto has_changed = [&](const Cell& b) { return is_other[index(b)] != 0; };
 
   // Bricks to redo: those that changed, and neighbours that may have agreed to join a face with
   // them.
@@ -260,7 +297,6 @@ SkinUpdate FieldSkin::UpdateFrom(const SolidField& field, std::span<const float>
     }
   });
   update.bricks_redone = static_cast<int>(redo.size());
-  version_ = field.version();
   if (redo.empty() && !is_new) {
     for (std::size_t i = 0; i < previous_.size(); ++i) previous_[i] = static_cast<int>(i);
     for (const Brick& brick : bricks_) update.bricks_with_skin += !brick.vertices.empty();

@@ -25,13 +25,13 @@ class FieldSkin {
   FieldSkin() = default;
   explicit FieldSkin(const SolidField& field) { Update(field); }
 
-  // Makes the surface of other values on the field's grid, negative inside. It may end at the sides
-  // of the grid, and is then open there.
-  FieldSkin(const SolidField& field, std::span<const float> values) { UpdateFrom(field, values); }
-
   // Rebuilds the bricks whose surface changed since the last call. Starts again for a field with
   // another grid or a lower version().
-  SkinUpdate Update(const SolidField& field) { return UpdateFrom(field, field.values()); }
+  SkinUpdate Update(const SolidField& field);
+  // The same for the surface of other values on the field's grid, negative inside. It may end at
+  // the sides of the grid, and is then open there. Keeps a copy of the values to find the bricks
+  // that changed; a skin is updated by one of both functions only.
+  SkinUpdate Update(const SolidField& field, std::span<const float> values);
 
   const SurfaceMesh& surface() const { return surface_; }
   // Index that each vertex had before the last Update, if it has not moved; −1: new vertex.
@@ -50,13 +50,18 @@ class FieldSkin {
   };
   class Cells;
 
-  SkinUpdate UpdateFrom(const SolidField& field, std::span<const float> values);
+  bool HasGridOf(const SolidField& field) const;
+  // `has_changed`: of brick (i, j, k); not asked where the skin is new.
+  template <class HasChanged>
+  SkinUpdate UpdateBricks(const SolidField& field, std::span<const float> values, bool is_new,
+                          const HasChanged& has_changed);
 
   SurfaceMesh surface_;
   std::vector<int> previous_;
   std::vector<Brick> bricks_;
   FieldGrid grid_;
   std::uint64_t version_ = 0;
+  std::vector<float> values_;  // of the last update from other values
 };
 
 inline SurfaceMesh Polygonise(const SolidField& field) { return FieldSkin(field).surface(); }

@@ -38,8 +38,9 @@ void ImplicitSolver::Impl::AddSprings(BlockMatrix& to) const {
 
 // Factors the last evaluation on this thread. Unless the true tangent is requested, uses the
 // projected one if the true one is far from positive definite. Keeps the old factor if memory is
-// too small.
-void ImplicitSolver::Impl::FactorNow(std::span<const glm::dvec3> x, bool of_true_tangent) noexcept {
+// too small. Returns the number of factorings.
+int ImplicitSolver::Impl::FactorNow(std::span<const glm::dvec3> x, bool of_true_tangent) noexcept {
+  int factorings = 0;
   try {
     const auto mass = model->mass();
     const double dt = last_dt > 0 ? last_dt : kStaticStep;
@@ -48,23 +49,28 @@ void ImplicitSolver::Impl::FactorNow(std::span<const glm::dvec3> x, bool of_true
     auto made = std::make_unique<SparseFactor>(
         UpdatePlan(factor->factor().shared_plan(), factor->parent(), stiffness.pattern, fixed));
     made->TakeWorkMemory(factor->factor());
-    const auto shift_needed = [&] {
+    const auto shift_needed = [&](bool any) {
       BlockMatrix matrix = stiffness;
       AddSprings(matrix);
-      return made->Factor(matrix, with);
+      const double shift =
+          any ? made->Factor(matrix, with) : made->FactorWithin(matrix, with, kMostShift);
+      factorings += shift == 0 ? 1 : 2;
+      return shift;
     };
-    double shift = shift_needed();
-    if (shift > kMostShift && at_tangent == Tangent::kTrue && !of_true_tangent) {
+    const bool may_project = at_tangent == Tangent::kTrue && !of_true_tangent;
+    double shift = shift_needed(!may_project);
+    if (shift < 0 && may_project) {
       projected_left = kProjectedIterations;
       Evaluate(x, at_law, Tangent::kProjected);
-      shift = shift_needed();
+      shift = shift_needed(true);
     }
-    if (shift < 0) return;
+    if (shift < 0) return factorings;
     model->NodeRotations(x, rotation);
     factor = std::make_unique<RotatedFactor>(std::move(made), rotation);
     age = 0;
   } catch (const std::exception&) {
   }
+  return factorings;
 }
 
 void ImplicitSolver::BeginRefresh() {
@@ -103,10 +109,11 @@ void ImplicitSolver::RunRefresh() noexcept {
           std::make_unique<SparseFactor>(
               UpdatePlan(body.job_plan, body.job_plan_parent, pattern, body.job_fixed)),
           body.job_rotation);
-    const double shift = body.spare->factor().Factor(body.job_stiffness, body.job_added);
+    const double shift =
+        body.spare->factor().FactorWithin(body.job_stiffness, body.job_added, kMostShift);
     body.spare->SetRotations(body.job_rotation);
-    body.job_is_shifted = shift > kMostShift;
-    body.job = shift >= 0 && !body.job_is_shifted ? Impl::Job::kDone : Impl::Job::kFailed;
+    body.job_is_shifted = shift < 0;
+    body.job = shift >= 0 ? Impl::Job::kDone : Impl::Job::kFailed;
   } catch (const std::exception&) {  // no memory: the old factor stays
     body.spare.reset();
     body.job = Impl::Job::kFailed;

@@ -179,9 +179,9 @@ StepReport ImplicitSolver::Step(BodyState& state, std::span<const glm::dvec3> lo
   for (std::size_t i = 0; i < nodes; ++i) body.goal_x[i] = state.x[i] + dt * state.v[i];
   std::copy(state.v.begin(), state.v.end(), body.good_v.begin());
 
-  report =
-      body.Newton(state.x, problem,
-                  {body.options.tolerance, body.options.max_newton, body.options.max_iterations});
+  report = body.Newton(state.x, problem,
+                       {body.options.tolerance, body.options.max_newton,
+                        body.options.max_iterations, body.options.max_work});
   ++body.age;
   ++body.job_age;
   if (!report.is_finite || !AllFinite(state.x)) {

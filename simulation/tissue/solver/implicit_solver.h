@@ -30,6 +30,7 @@ struct SolverOptions {
   double tolerance = 1e-2;
   int max_newton = 2;
   int max_iterations = 200;
+  int max_work = 1'000'000;
   double max_speed = 20.0;
   template <class V>
   void Visit(V&& v) {
@@ -38,6 +39,9 @@ struct SolverOptions {
     v("max_newton", max_newton, Range{1, 1000}, "", "Newton iterations per step.");
     v("max_iterations", max_iterations, Range{1, 100000}, "",
       "Conjugate-gradient iterations per Newton iteration.");
+    v("max_work", max_work, Range{1, 1'000'000}, "",
+      "Work of a step, in iterations of conjugate gradients, beyond which it ends as it is. What "
+      "is left of the residual moves the tissue in the next step.");
     v("max_speed", max_speed, Range{0.01, 1e4}, "m/s",
       "Speed limit of nodes; the report tells when it was applied.");
   }
@@ -50,6 +54,7 @@ struct BodyState {
 struct StepReport {
   double residual = 0;  // relative, as in `tolerance`
   int newton = 0, iterations = 0;
+  int work = 0;  // as in `max_work`
   int inverted = 0;
   double energy = 0;       // J, elastic
   bool converged = false;  // residual ≤ tolerance

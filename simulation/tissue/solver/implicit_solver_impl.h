@@ -30,6 +30,7 @@ struct NewtonGoal {
   double tolerance = 1e-2;
   int max_newton = 2;
   int max_iterations = 200;
+  int max_work = 1 << 30;  // see SolverOptions
   bool refactors = false;  // makes a new factor if the old one needs many iterations
   // Plain Newton: finds the equilibrium near the start, stable or not, instead of descending.
   bool follows = false;
@@ -68,7 +69,7 @@ struct ImplicitSolver::Impl {
   std::vector<ContactSpring> SpringsWithout(std::span<const ContactPoint> points) const;
 
   // factor_refresh.cpp
-  void FactorNow(std::span<const glm::dvec3> x, bool of_true_tangent) noexcept;
+  int FactorNow(std::span<const glm::dvec3> x, bool of_true_tangent) noexcept;
   void AddSprings(BlockMatrix& to) const;
 
   void FinishReactions(const Problem& problem);

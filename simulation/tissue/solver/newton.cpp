@@ -23,6 +23,10 @@ constexpr int kManyIterations = 8;  // count that requests a new factor, where o
 // Iterations that cost as much as a new factor: a system unsolved by then gets one and starts
 // again.
 constexpr int kIterationsOfAFactor = 36;
+// Iterations that cost as much as the energy, forces and tangent of a Newton iteration, and as the
+// rounds of one that recovers.
+constexpr int kIterationsOfATangent = 16, kIterationsOfARecovery = 36;
+constexpr int kFewestIterations = 6;  // of a system, however much work is done already
 
 }  // namespace
 
@@ -102,21 +106,21 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
   CgGoal linear;
   linear.relative = is_static ? std::clamp(0.1 * residual, 1e-7, 1e-2) : kEnergy;
   linear.residual = is_static ? 0.0 : std::max(0.5 * goal.tolerance, kForcing * residual) * scale;
-  linear.max_iterations = goal.max_iterations;
+  int most = goal.max_iterations;
   if (goal.follows) {
     // In an indefinite system the energy norm of the error is meaningless, and plain Newton needs
     // its whole step.
     linear.takes_saddles = true;
-    linear.max_iterations = std::min(linear.max_iterations, kFollowingIterations);
+    most = std::min(most, kFollowingIterations);
     linear.relative = 1e-5;
     linear.residual = 1e-5 * residual * scale;
   }
-  const int most = linear.max_iterations;
   model->NodeRotations(x, rotation);
   const bool begins_anew = needs_factor || (goal.refactors && wants_factor);
-  if (begins_anew) FactorNow(x, goal.follows);
+  const auto factor_now = [&] { report.work += kIterationsOfAFactor * FactorNow(x, goal.follows); };
+  if (begins_anew) factor_now();
   wants_factor = needs_factor = false;
-  bool may_factor = !begins_anew;
+  bool may_factor = !begins_anew && report.work + 2 * kIterationsOfAFactor < goal.max_work;
   for (int attempt = 0; attempt < 3; ++attempt) {
     const LinearSystem system = System();
     for (std::size_t i = 0; i < x.size(); ++i) right[i] = -gradient[i];
@@ -127,9 +131,12 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
     factor->SetCurrentRotations(rotation);
     factor->SetDiagonal(stiffness, system.added);
     linear.max_iterations =
-        may_factor && !goal.refactors ? std::min(most, kIterationsOfAFactor) : most;
+        std::min(most, std::max(goal.max_work - report.work, kFewestIterations));
+    if (may_factor && !goal.refactors)
+      linear.max_iterations = std::min(linear.max_iterations, kIterationsOfAFactor);
     const CgResult result = SolveByGradients(system, *factor, right, linear, vectors, direction);
     report.iterations += result.iterations;
+    report.work += result.iterations;
     wants_factor = wants_factor || result.iterations > kManyIterations;
     met_negative = met_negative || !result.is_positive;
     if (!result.is_positive && !goal.follows) {
@@ -140,7 +147,7 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
     } else if (result.converged || !may_factor) {
       break;
     } else {
-      FactorNow(x, goal.follows);
+      factor_now();
       may_factor = false;
     }
   }
@@ -211,14 +218,19 @@ StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& 
     report.inverted = assembly.inverted;
     report.energy = assembly.energy;
     const bool is_far = assembly.inverted > 0 && !has_given_up && residual > kFarFromRest;
+    const bool may_go_on = report.newton < goal.max_newton && report.work < goal.max_work;
     if (is_far && goal.follows) return report;  // diverged: a smaller load step may converge
-    if ((is_far || is_recovering) && report.newton < goal.max_newton && std::isfinite(residual)) {
+    if ((is_far || is_recovering) && may_go_on && std::isfinite(residual)) {
       // Recovers inverted elements until none is left.
       report.used_fallback = true;
       report.newton += 1;
+      report.work += kIterationsOfARecovery;
       for (std::size_t i = 0; i < x.size() && leads; ++i) x[i] += lead[i];
       leads = false;
-      if (!recovery_factor) MakeRecovery();  // after a cut
+      if (!recovery_factor) {  // after a cut
+        MakeRecovery();
+        report.work += kIterationsOfAFactor + kIterationsOfATangent;
+      }
       RecoverShape(x, problem);
       continue;
     }
@@ -234,9 +246,10 @@ StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& 
     const double enough =
         problem.dt > 0 && report.newton == 0 ? kAsleep * goal.tolerance : goal.tolerance;
     if ((residual <= enough || is_rounding) && is_free_to_end) return report;
-    if (report.newton >= goal.max_newton || stuck > 2) return report;
+    if (!may_go_on || stuck > 2) return report;
     if (met_negative && !goal.follows && report.newton > goal.patience) return report;
     ++report.newton;
+    report.work += kIterationsOfATangent;
     FindDirection(x, problem, goal, scale, residual, leads, report);
     const Tangent used = at_tangent;
     projected_left = std::max(0, projected_left - 1);

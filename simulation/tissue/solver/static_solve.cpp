@@ -43,8 +43,10 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
   }
   std::copy(state.x.begin(), state.x.end(), body.begin_x.begin());
   const std::vector<glm::dvec3> start = state.x;
-  NewtonGoal goal{tolerance, kNewtonWhole, std::max(kMostIterations, body.options.max_iterations),
-                  true};
+  NewtonGoal goal{.tolerance = tolerance,
+                  .max_newton = kNewtonWhole,
+                  .max_iterations = std::max(kMostIterations, body.options.max_iterations),
+                  .refactors = true};
 
   std::vector<glm::dvec3> inverted_x;  // an equilibrium with inverted elements, or empty
   StepReport inverted;

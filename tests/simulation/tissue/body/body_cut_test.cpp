@@ -137,6 +137,65 @@ TEST(BodyCut, BiteUnderAPressedToolAddsNoForce) {
   EXPECT_LT(most, 1.1 * pressed);
 }
 
+// A step that cuts makes the new shape; the hand feels what it felt, at its new place, and the next
+// step solves for the time of both. Before, one step made the shape, a new factor and the solution.
+TEST(BodyCut, StepThatCutsLeavesTheSolutionToTheNext) {
+  BodySpec spec = test::SlabBody();
+  spec.is_cuttable = true;
+  DeformableBody body(spec, {});
+  ToolCoupling coupling;
+  WorldTool tool;
+  const auto step = [&](double depth, double opening) {
+    tool = test::ToolAbove(spec, ToolKind::kPunch, depth);
+    tool.now.opening = opening;
+    coupling = {};
+    coupling.tip = tool.now.portal_from_tool.translation;
+    return body.Step({&tool, 1}, nullptr, test::kFrame, {&coupling, 1});
+  };
+  for (int i = 0; i < 30; ++i) step(1e-3, 1.0);
+  const ToolCoupling before = coupling;
+  ASSERT_EQ(before.count, 1);
+  const BodyReport cut = step(1.1e-3, 0.0);
+  EXPECT_TRUE(cut.was_cut);
+  EXPECT_EQ(cut.step.work, 0);
+  EXPECT_EQ(cut.contacts, 1);
+  ASSERT_EQ(coupling.count, 1);
+  const glm::dvec3 expected = ForceOf(before, coupling.tip).force;
+  EXPECT_GT(glm::length(expected), 0.05) << "N";
+  EXPECT_LT(glm::length(ForceOf(coupling, coupling.tip).force - expected), 1e-9);
+  const BodyReport solved = step(1.1e-3, 0.0);
+  EXPECT_FALSE(solved.was_cut);
+  EXPECT_GT(solved.step.newton, 0);
+  EXPECT_TRUE(IsSound(body));
+}
+
+// Work that runs beside the steps prepares a body for its first cut. A tool that arrives cutting
+// waits for it, some steps, instead of making the step wait.
+TEST(BodyCut, ToolThatArrivesCuttingWaitsForThePreparation) {
+  BodySpec spec = test::SlabBody();
+  spec.is_cuttable = true;
+  DeformableBody body(spec, {});
+  int waits = 0;
+  body.SetBeforeCut([&] { ++waits; });
+  ToolCoupling coupling;
+  const auto step = [&](double opening) {
+    const WorldTool tool = PunchAt(spec, 2e-3, opening);
+    coupling = {};
+    return body.Step({&tool, 1}, nullptr, test::kFrame, {&coupling, 1});
+  };
+  step(1.0);
+  EXPECT_TRUE(body.WantsSideWork());
+  body.BeginSideWork();
+  EXPECT_FALSE(step(1.0).was_cut);
+  EXPECT_FALSE(step(0.0).was_cut) << "it is being prepared";
+  body.RunSideWork();
+  body.TakeSideWork();
+  EXPECT_FALSE(body.WantsSideWork());
+  EXPECT_FALSE(step(1.0).was_cut);
+  EXPECT_TRUE(step(0.0).was_cut);
+  EXPECT_EQ(body.cut_report().cuts, 1);
+}
+
 // The other thread works on the old body until it returns it.
 TEST(BodyCut, BiteWithoutMemoryRestoresTheTissueAfterARefresh) {
   BodySpec spec = test::SlabBody();
@@ -149,7 +208,7 @@ TEST(BodyCut, BiteWithoutMemoryRestoresTheTissueAfterARefresh) {
     return body.Step({&punch, 1}, nullptr, test::kFrame, {&coupling, 1});
   };
   step(open);
-  body.BeginRefresh();
+  body.BeginSideWork();
   const glm::dvec3* const held = body.state().x.data();
   {
     const test::NoMemory here;
@@ -159,8 +218,8 @@ TEST(BodyCut, BiteWithoutMemoryRestoresTheTissueAfterARefresh) {
   EXPECT_TRUE(body.IsLost());
   EXPECT_TRUE(step(closed).was_reset);
   EXPECT_EQ(body.state().x.data(), held);
-  body.RunRefresh();
-  body.TakeRefresh();
+  body.RunSideWork();
+  body.TakeSideWork();
   {
     const test::NoMemory still;
     EXPECT_TRUE(step(closed).was_reset);
@@ -241,10 +300,10 @@ TEST(Fem22, CutsDuringContactKeepAValidBody) {
       ASSERT_FALSE(report.was_reset) << bite;
       most = std::max(most, report.step.iterations / std::max(1, report.step.newton));
       cuts += report.was_cut;
-      if (body.WantsRefresh()) {
-        body.BeginRefresh();
-        body.RunRefresh();
-        body.TakeRefresh();
+      if (body.WantsSideWork()) {
+        body.BeginSideWork();
+        body.RunSideWork();
+        body.TakeSideWork();
       }
     }
     ASSERT_TRUE(IsSound(body)) << bite;
@@ -275,10 +334,10 @@ TEST(Fem22, ShavingTissueOnBoneNeedsFewIterations) {
     ASSERT_FALSE(report.was_reset) << i;
     most = std::max(most, report.step.iterations / std::max(1, report.step.newton));
     cuts += report.was_cut;
-    if (body.WantsRefresh()) {
-      body.BeginRefresh();
-      body.RunRefresh();
-      body.TakeRefresh();
+    if (body.WantsSideWork()) {
+      body.BeginSideWork();
+      body.RunSideWork();
+      body.TakeSideWork();
     }
   }
   printf("%d cuts, %.1f mm3, at most %d iterations\n", cuts, 1e9 * body.cut_report().removed, most);

@@ -74,10 +74,10 @@ TEST(Pinch, Fem10PinchToAFifthForFiveSecondsLeavesNoDamage) {
     EXPECT_TRUE(report.step.is_finite);
     EXPECT_FALSE(report.was_reset);
     for (const ToolCoupling& of_jaw : coupling) EXPECT_TRUE(IsFinite(of_jaw));
-    if (body.WantsRefresh()) {
-      body.BeginRefresh();
-      body.RunRefresh();
-      body.TakeRefresh();
+    if (body.WantsSideWork()) {
+      body.BeginSideWork();
+      body.RunSideWork();
+      body.TakeSideWork();
     }
     return report;
   };

@@ -111,6 +111,36 @@ TEST(Coupling, ForceFollowsTheCurvatureOfSlidingContact) {
   }
 }
 
+// The contact of a step without a solution gives the force that the last one gives at the new tip,
+// and its push grows from there as that does. A rub that has slipped goes on from where it is.
+TEST(Coupling, MovedContactGivesTheForceOfTheLastAtItsTip) {
+  Random random(17);
+  double worst = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const glm::dvec3 out = AnyUnit(random);
+    const Bulge bulge{{0, 0, 0}, trial % 2 == 0 ? 0.02 : -0.02, 300, random.Uniform(1, 2)};
+    const glm::dvec3 tip = (0.02 - (bulge.ball > 0 ? 1e-3 : -1e-3)) * out;
+    const glm::dvec3 rub = 0.004 * glm::normalize(glm::cross(out, AnyUnit(random)));
+    const bool rubs = trial % 3 == 0;
+    const ToolCoupling last =
+        CouplingOf(bulge, tip, {1, 0, 0, 0}, rubs ? 0.03 : 0.0, rubs ? rub : glm::dvec3(0.0));
+    ToolCoupling moved;
+    moved.step = 2;
+    moved.tip = tip + random.Uniform(0, 1.5e-3) * AnyUnit(random);
+    AddMoved(last.contact[0], moved.tip - tip, moved);
+    ASSERT_EQ(moved.count, 1);
+    EXPECT_FALSE(moved.is_faulty);
+    EXPECT_LT(glm::length(ForceOf(moved, moved.tip).force - ForceOf(last, moved.tip).force), 1e-12)
+        << trial;
+    if (rubs) continue;
+    const glm::dvec3 on = moved.tip + 1e-4 * AnyUnit(random);
+    const double size = std::max(0.05, glm::length(ForceOf(last, moved.tip).force));
+    worst = std::max(worst, glm::length(ForceOf(moved, on).force - ForceOf(last, on).force) / size);
+  }
+  std::printf("0.1 mm further: %.2e of the force\n", worst);
+  EXPECT_LT(worst, 0.05);
+}
+
 TEST(Coupling, ToolThatPullsAwayFeelsNoForce) {
   const Bulge bulge;
   const glm::dvec3 tip(0, 0, 0.019);

@@ -143,6 +143,18 @@ TEST(SkinContact, NoContactBeyondTheMargin) {
   EXPECT_TRUE(slab.contact.IsNear(std::span(&shaft, 1), 1.1e-3));
 }
 
+// A jump of the hand watched all skin within 20 mm of its end, which took ten times as long as the
+// rest of the step.
+TEST(SkinContact, ToolThatJumpedWatchesTheSkinNearItOnly) {
+  const Slab slab;
+  ToolGrip grip;
+  const Capsule near{{0, 0, 0.004}, {0, 0, 0.02}, kRadius},
+      far{{0, 0, 0.009}, {0, 0, 0.02}, kRadius};
+  EXPECT_FALSE(slab.Find(std::span(&near, 1), {0.01, 0, 0}, &grip).empty());
+  grip = {};
+  EXPECT_TRUE(slab.Find(std::span(&far, 1), {0.03, 0, 0}, &grip).empty());
+}
+
 TEST(SkinContact, TipTouchesWithItsEndOnly) {
   const Slab slab;
   const Capsule rod{{0.001, 0.002, kRadius - 2e-4}, {0.001, 0.002, 0.02}, kRadius};

@@ -141,6 +141,18 @@ TEST(SparseFactor, IndefiniteMatrixIsShiftedUntilPositiveDefinite) {
   }
 }
 
+TEST(SparseFactor, FactorWithinAShiftEndsWhereThatIsTooLittle) {
+  BlockMatrix a = Grid(6, 5, 4);
+  SparseFactor factor(std::make_shared<FactorPlan>(a.pattern, FixedAxes{}));
+  EXPECT_EQ(factor.FactorWithin(a, {}, 1e-3), 0.0);
+  for (std::size_t i = 0; i < 120; ++i)
+    for (int c = 0; c < 3; ++c) a.block[a.pattern->diagonal[i]][4 * c] -= 5.5;
+  const double needed = factor.Factor(a, {});
+  ASSERT_GT(needed, 1e-3);
+  EXPECT_EQ(factor.FactorWithin(a, {}, 1e-3), -1.0);
+  EXPECT_EQ(factor.FactorWithin(a, {}, needed), needed);
+}
+
 // Row of 20 × 6 × 6 cells with 8 nodes each; from `cut` on they have separate nodes.
 struct Row {
   std::vector<int> cells, parent;  // parent: node of the whole row

@@ -107,7 +107,7 @@ TEST(CarvedSkin, DebrisLeavesNoSkin) {
   const SurfaceMesh bar =
       test::Box(glm::dvec3(-10, -1.5, -1.5) * kMm, glm::dvec3(10, 1.5, 1.5) * kMm);
   SolidField field = SolidField::FromSurface(bar, kSpacing);
-  const SkinCarver carver(bar, field);
+  SkinCarver carver(bar, field);
   field.Subtract({glm::dvec3(6, -3, -3) * kMm, glm::dvec3(9, 3, 3) * kMm},
                  [](const glm::dvec3& x) { return std::abs(x.x - 7.5 * kMm) - 0.5 * kMm; });
   const auto at_end = [&](const CarvedSkin& skin) {
@@ -121,6 +121,31 @@ TEST(CarvedSkin, DebrisLeavesNoSkin) {
   is_debris[pieces.volume[0] < pieces.volume[1] ? 0 : 1] = 1;
   RemovePieces(field, pieces, is_debris);
   EXPECT_EQ(at_end(carver.Carve(field)), 0);
+}
+
+// A carver keeps the faces of the cuts it made last; what it makes of them must not depend on that.
+TEST(CarvedSkin, CarvingOnEqualsCarvingAnew) {
+  const SurfaceMesh whole = test::Sphere({0, 0, 0}, kRadius, 4);
+  const SolidField uncut = SolidField::FromSurface(whole, kSpacing);
+  SolidField field = uncut;
+  SkinCarver kept(whole, uncut);
+  std::vector<SolidField> states{uncut};
+  for (int bite = 0; bite < 8; ++bite) {
+    const glm::dvec3 at = kRadius * glm::normalize(glm::dvec3(std::cos(bite), std::sin(bite), 0.2));
+    field.Subtract({at - 3.0 * kBite, at + 3.0 * kBite},
+                   [&](const glm::dvec3& x) { return glm::distance(x, at) - kBite; });
+    states.push_back(field);
+  }
+  states.push_back(states[3]);  // as an undo
+  states.push_back(uncut);
+  states.push_back(states[8]);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const CarvedSkin on = kept.Carve(states[i]), anew = SkinCarver(whole, uncut).Carve(states[i]);
+    EXPECT_EQ(on.surface.vertices, anew.surface.vertices) << i;
+    EXPECT_EQ(on.surface.triangles, anew.surface.triangles) << i;
+    EXPECT_EQ(on.is_fresh, anew.is_fresh) << i;
+    EXPECT_EQ(on.whole_vertex, anew.whole_vertex) << i;
+  }
 }
 
 TEST(CarvedSkin, IsTheSameEachTime) {

@@ -173,6 +173,29 @@ TEST(Polygonise, UpdateFollowsChangesAcrossBricksInNoise) {
   }
 }
 
+// Values that no version speaks of: the bricks that changed are found by comparing.
+TEST(Polygonise, UpdateFromOtherValuesRedoesChangedBricksOnly) {
+  const SolidField field =
+      SolidField::FromFunction({glm::dvec3(-6e-3), glm::dvec3(6e-3)}, 2e-4,
+                               [](const glm::dvec3& x) { return glm::length(x) - 5e-3; });
+  std::vector<float> values(field.values().begin(), field.values().end());
+  FieldSkin kept;
+  const SkinUpdate first = kept.Update(field, values);
+  EXPECT_EQ(kept.Update(field, values).bricks_redone, 0);
+  for (float& value : values)
+    if (std::abs(value) < 3e-4f &&
+        &value - values.data() > static_cast<std::ptrdiff_t>(values.size()) * 4 / 5)
+      value -= 1e-4f;
+  const SkinUpdate second = kept.Update(field, values);
+  FieldSkin anew;
+  anew.Update(field, values);
+  EXPECT_EQ(kept.surface().vertices, anew.surface().vertices);
+  EXPECT_EQ(kept.surface().triangles, anew.surface().triangles);
+  std::printf("%d of %d bricks redone\n", second.bricks_redone, first.bricks_with_skin);
+  EXPECT_GT(second.bricks_redone, 0);
+  EXPECT_LT(second.bricks_redone, first.bricks_with_skin / 2);
+}
+
 TEST(Polygonise, EmptyFieldGivesNoTriangles) {
   EXPECT_TRUE(Polygonise(SolidField()).triangles.empty());
   EXPECT_TRUE(Polygonise(Sampled([](const glm::dvec3&) { return 1.0; }, kMm)).triangles.empty());
