@@ -104,7 +104,7 @@ ColourImage DecodePng(std::string_view bytes, const std::filesystem::path& file)
   if (!ReadHead(reading)) RefuseDamagedPicture(file);
   const std::uint32_t width = png_get_image_width(reading.png, reading.info),
                       height = png_get_image_height(reading.png, reading.info);
-  RequireSize(width, height, file);
+  RequireSize(width, height, bytes, file);
   reading.image.width = static_cast<int>(width);
   reading.image.height = static_cast<int>(height);
   if (!ReadPixels(reading) || reading.is_damaged) RefuseDamagedPicture(file);
