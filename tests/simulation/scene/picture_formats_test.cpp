@@ -221,6 +221,11 @@ TEST(PictureFormats, ASmallFileIsNoLargePicture) {
   png.replace(16, 8, std::string("\0\0\x3e\x80\0\0\x3e\x80", 8));
   EXPECT_NE(FaultOf(WithChecksums(png)).find("16000 x 16000 pixels in a file of"),
             std::string::npos);
+  // A comment that claims 650 MB. Only its refusal shows here; the corpus of tests/fuzz has its
+  // cost.
+  std::string comment = Encoded(".png", Picture(CV_8UC3));
+  comment.insert(comment.size() - 12, std::string("\x27\0\0\x25tEXt", 8));
+  EXPECT_EQ(FaultOf(comment), "this picture is damaged inside; copy or export it again");
   std::string webp = Encoded(".webp", Picture(CV_8UC3));
   ASSERT_EQ(webp.substr(12, 4), "VP8L") << "the losless form, as OpenCV writes it by default";
   webp.replace(21, 4, std::string("\xff\xff\xff\x0f", 4));
