@@ -8,11 +8,14 @@
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "simulation/core/error.h"
 #include "simulation/core/input_file.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/formats/picture_formats.h"
+#include "simulation/scene/formats/quiet_error_stream.h"
 
 namespace arthro::authoring {
 namespace {
@@ -28,20 +31,44 @@ void AllowExr() {
   });
 }
 
+// Empty where it is of another format, or damaged. Only the three decoders that the formats need
+// are ever called. Size and soundness are checked first by our own: OpenCV's PNG and TIFF print
+// their words on stderr, and give a damaged picture as a whole one.
+cv::Mat Decoded(const std::string& bytes, const std::filesystem::path& file) {
+  switch (FormatOf(bytes)) {
+    case PictureFormat::kPng:
+      DecodePng(bytes, file);
+      break;
+    case PictureFormat::kTiff:
+      if (IsFloatTiff(bytes, file))
+        DecodeDepthTiff(bytes, "it has several channels, but a depth map has one; save it as grey",
+                        file);
+      else
+        DecodeTiff(bytes, file);
+      break;
+    case PictureFormat::kExr:
+      CheckExr(bytes, file);
+      AllowExr();
+      break;
+    default:
+      return {};
+  }
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  const QuietErrorStream quiet;
+  try {
+    return cv::imdecode(
+        cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data())),
+        cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 GreyNumbers ReadGreyNumbers(const std::filesystem::path& file) {
   const std::string bytes = ReadWholeFile(file, kMostBytes);
-  AllowExr();
-  cv::Mat image;
-  try {
-    if (!bytes.empty())
-      image = cv::imdecode(
-          cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data())),
-          cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    image.release();
-  }
+  const cv::Mat image = Decoded(bytes, file);
   if (image.empty())
     throw Error(Code::kBadImage,
                 "it could not be read as a depth map; take a PNG or TIFF of 8 or 16 bits, or a "

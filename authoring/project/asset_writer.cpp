@@ -7,6 +7,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
+#include "simulation/scene/files/scene_io.h"
 
 namespace arthro::authoring {
 namespace {
@@ -64,6 +65,7 @@ void AssetWriter::Keep() {
 
 fs::path AssetWriter::Write(const fs::path& name,
                             const std::function<void(const fs::path&)>& write) {
+  RequireInFolder(folder_, name.parent_path().empty() ? fs::path(".") : name.parent_path());
   // Folders inside the scene, one after the other, so that each can be removed again.
   fs::path inside = folder_;
   for (const fs::path& part : name.parent_path()) MakeFolder(inside /= part);

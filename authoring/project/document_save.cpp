@@ -339,6 +339,7 @@ class Saving {
   WrittenFiles SortWrittenFiles() {
     WrittenFiles unused;
     for (const auto& [name, mark] : writer_.files()) {
+      if (!IsInFolder(folder_, name)) continue;
       if (FingerprintOfFile(folder_ / name) != mark) continue;  // gone, or somebody else's by now
       const bool is_kept =
           after_.files.contains(name) ||

@@ -77,7 +77,7 @@ void RemoveLeftovers(const fs::path& folder, const std::set<fs::path>& needed) {
     const WrittenFiles listed = ListedIn(scene, folder);
     std::error_code ignored;
     for (const auto& [name, mark] : UnfinishedSaveOf(folder))
-      if (!names.contains(name) && !listed.contains(name) &&
+      if (!names.contains(name) && !listed.contains(name) && IsInFolder(folder, name) &&
           !needed.contains(fs::absolute(folder / name).lexically_normal()) &&
           !IsNamedByAnotherFile(folder, name) && FingerprintOfFile(folder / name) == mark)
         fs::remove(folder / name, ignored);
@@ -87,6 +87,10 @@ void RemoveLeftovers(const fs::path& folder, const std::set<fs::path>& needed) {
 }
 
 void WriteUnfinishedSave(const fs::path& folder, const WrittenFiles& files) {
+  // A link would lead the list into a file of somebody else.
+  std::error_code ignored;
+  if (fs::is_symlink(folder / kUnfinishedSave, ignored))
+    fs::remove(folder / kUnfinishedSave, ignored);
   WriteAtomically(folder / kUnfinishedSave, JsonFromWrittenFiles(files) + "\n");
 }
 

@@ -148,10 +148,10 @@ std::vector<fs::path> SourceFiles(const fs::path& root) {
 
 std::vector<fs::path> DocumentFiles(const fs::path& root) {
   std::vector<fs::path> files = {root / "README.md", root / "CONTRIBUTING.md",
-                                 root / "CHANGELOG.md"};
+                                 root / "CHANGELOG.md", root / "SECURITY.md"};
   AddTree(root / "resources/doc", files,
           [](const fs::path& file) { return file.extension() == ".md"; });
-  std::sort(files.begin() + 3, files.end());
+  std::sort(files.begin() + 4, files.end());
   return files;
 }
 

@@ -46,17 +46,26 @@ class Install : public ::testing::Test {
 };
 
 TEST_F(Install, HoldsProgramResourcesDocumentsLicenceAndDeviceRule) {
-  for (const char* file :
-       {"bin/arthroscene", "share/man/man1/arthroscene.1", "share/man/man1/arthroscene-panorama.1",
-        "share/bash-completion/completions/arthroscene", "share/applications/arthroscene.desktop",
-        "share/mime/packages/arthroscene.xml", "share/icons/hicolor/scalable/apps/arthroscene.svg",
-        "lib/udev/rules.d/70-arthroscene.rules", "share/arthroscene/demo/scene.json",
-        "share/arthroscene/presets/lenses", "share/arthroscene/presets/rigs",
-        "share/arthroscene/presets/tissues", "share/arthroscene/schemas/scene-2.schema.json",
-        "share/doc/arthroscene/LICENSE", "share/doc/arthroscene/README.md",
-        "share/doc/arthroscene/CHANGELOG.md", "share/doc/arthroscene/CONTRIBUTING.md",
-        "share/doc/arthroscene/resources/doc/method.md",
-        "share/doc/arthroscene/resources/pictures/practice.jpg"})
+  for (const char* file : {"bin/arthroscene",
+                           "share/man/man1/arthroscene.1",
+                           "share/man/man1/arthroscene-panorama.1",
+                           "share/bash-completion/completions/arthroscene",
+                           "share/applications/arthroscene.desktop",
+                           "share/mime/packages/arthroscene.xml",
+                           "share/icons/hicolor/scalable/apps/arthroscene.svg",
+                           "lib/udev/rules.d/70-arthroscene.rules",
+                           "share/arthroscene/demo/scene.json",
+                           "share/arthroscene/presets/lenses",
+                           "share/arthroscene/presets/rigs",
+                           "share/arthroscene/presets/tissues",
+                           "share/arthroscene/schemas/scene-2.schema.json",
+                           "share/doc/arthroscene/LICENSE",
+                           "share/doc/arthroscene/README.md",
+                           "share/doc/arthroscene/CHANGELOG.md",
+                           "share/doc/arthroscene/CONTRIBUTING.md",
+                           "share/doc/arthroscene/SECURITY.md",
+                           "share/doc/arthroscene/resources/doc/method.md",
+                           "share/doc/arthroscene/resources/pictures/practice.jpg"})
     EXPECT_TRUE(fs::exists(usr_ / file)) << file;
   for (const auto& entry :
        fs::recursive_directory_iterator(fs::path(ARTHRO_SOURCE_DIR) / "resources/doc"))

@@ -52,9 +52,11 @@ void Run(const AssessJob& job) {
   }
   for (const std::string& message : messages)
     fmt::print(stderr, "note: {}\n", PrintableLine(message));
-  WriteAtomically(job.output, simulation::AssessmentTable(assessment));
+  // How a person worked is for that person.
+  WriteAtomically(job.output, simulation::AssessmentTable(assessment), Access::kPrivate);
   if (!job.report.empty())
-    WriteAtomically(job.report, simulation::AssessmentReport(assessment, loaded.scene.title));
+    WriteAtomically(job.report, simulation::AssessmentReport(assessment, loaded.scene.title),
+                    Access::kPrivate);
 }
 
 }  // namespace

@@ -7,14 +7,11 @@
 #include <fmt/format.h>
 
 #include "app/records/attempts/attempts.h"
-#include "app/records/store/json_file.h"
 #include "app/records/store/table.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {
 namespace {
-
-constexpr const char* kSchema = "arthroscene.records/1";
 
 // Rows of each table, grouped by the attempt to which they belong.
 template <class T>
@@ -75,18 +72,6 @@ RecordsBundle ReadWhere(Records& records, const std::string& attempts, const Row
 }
 
 }  // namespace
-
-std::string RecordsText(const RecordsBundle& bundle) { return JsonFileText(bundle, kSchema); }
-
-RecordsBundle RecordsFromText(std::string_view text, const std::filesystem::path& file) {
-  return FromJsonFile<RecordsBundle>(text, kSchema, "records", file);
-}
-
-std::string RecordsSchema() {
-  return JsonFileSchema<RecordsBundle>(
-      kSchema, "Records of attempts",
-      "Attempts at exercises with all that they refer to. SI units; times in UTC.");
-}
 
 RecordsBundle ReadBundle(Records& records, const std::string& trainee_code) {
   if (trainee_code.empty()) return ReadWhere(records, "", {});

@@ -1,19 +1,13 @@
-// Attempts as a JSON file, arthroscene.records/1: exports, imports and the outbox. The schema is
-// resources/schemas/records-1.schema.json.
+// Attempts between a JSON file (records_text.h) and the database: exports and imports.
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <vector>
 
 #include "app/records/attempts/attempt_record.h"
+#include "app/records/attempts/records_text.h"
 #include "app/records/store/records.h"
 
 namespace arthro::app {
-
-std::string RecordsText(const RecordsBundle& bundle);
-RecordsBundle RecordsFromText(std::string_view text, const std::filesystem::path& file = {});
-std::string RecordsSchema();
 
 // Everything about the attempts of one trainee, or of all with an empty code.
 RecordsBundle ReadBundle(Records& records, const std::string& trainee_code = "");

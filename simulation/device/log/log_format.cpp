@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <optional>
 #include <type_traits>
@@ -237,7 +238,10 @@ std::vector<LogSource> SourcesIn(std::string_view text, std::uint32_t version) {
   return sources;
 }
 
-// Counts dropped records: the numbers of a channel rise by one.
+constexpr auto kMostMissing = static_cast<std::uint64_t>(std::numeric_limits<long>::max());
+
+// Counts dropped records: the numbers of a channel rise by one. Numbers of a stranger's log may
+// repeat or be huge.
 long CountMissing(std::span<const LogRecord> records) {
   struct Channel {
     std::uint64_t end = 0, count = 0;
@@ -250,10 +254,12 @@ long CountMissing(std::span<const LogRecord> records) {
     channel.end = std::max(channel.end, record.number + 1);
     ++channel.count;
   }
-  long missing = 0;
-  for (const auto& [key, channel] : channels)
-    missing += static_cast<long>(channel.end - channel.count);
-  return missing;
+  std::uint64_t missing = 0;
+  for (const auto& [key, channel] : channels) {
+    const std::uint64_t gap = channel.end - std::min(channel.end, channel.count);
+    missing += std::min(gap, kMostMissing - missing);
+  }
+  return static_cast<long>(missing);
 }
 
 }  // namespace
@@ -476,7 +482,7 @@ DeviceLogContent ParseDeviceLog(std::string_view bytes, const std::filesystem::p
     const std::uint64_t kept = log.records.size() + log.attempt.size();
     if (*pushed < kept + static_cast<std::uint64_t>(log.missing))
       refuse("the end of this device log counts fewer records than there are; record it again");
-    log.missing = static_cast<long>(*pushed - kept);
+    log.missing = static_cast<long>(std::min(*pushed - kept, kMostMissing));
   } else if (version > kOldestLogVersion && log.torn.empty()) {
     log.torn =
         "the recording has no end: who recorded it did not come to close it, and what came "

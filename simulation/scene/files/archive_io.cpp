@@ -95,6 +95,10 @@ std::vector<Entry> EntriesOf(zip_t* zip, const fs::path& archive, const ArchiveL
                 archive);
   };
   if (count > limits.most_files) too_large(fmt::format("{} files", limits.most_files));
+  std::error_code ignored;
+  const std::uint64_t packed = fs::file_size(archive, ignored);
+  const std::uint64_t most_bytes =
+      std::min(limits.most_bytes, std::max(limits.free_bytes, limits.most_per_byte * packed));
   std::vector<Entry> entries;
   std::set<std::string> names;
   zip_uint64_t bytes = 0;
@@ -126,8 +130,8 @@ std::vector<Entry> EntriesOf(zip_t* zip, const fs::path& archive, const ArchiveL
     if (!names.insert(name).second)
       throw Error(Code::kBadScene,
                   fmt::format("\"{}\" is in this archive twice; export it again", name), archive);
-    if (stat.size > limits.most_bytes || (bytes += stat.size) > limits.most_bytes)
-      too_large(fmt::format("{} MB", limits.most_bytes >> 20));
+    if (stat.size > most_bytes || (bytes += stat.size) > most_bytes)
+      too_large(fmt::format("{} MB", most_bytes >> 20));
     entries.push_back({index, stat.size, name});
   }
   if (!names.contains("scene.json"))

@@ -12,9 +12,13 @@
 
 namespace arthro {
 
+// Bytes are those of all files together, unpacked. An archive of less than 1 MB must not cost a
+// disk or minutes, so above `free_bytes` each byte of the archive gives `most_per_byte` at most;
+// pictures and meshes in it give 10.
 struct ArchiveLimits {
-  std::uint64_t most_bytes = std::uint64_t{4} << 30;  // unpacked, all together
+  std::uint64_t most_bytes = std::uint64_t{4} << 30;
   std::int64_t most_files = 10000;
+  std::uint64_t free_bytes = std::uint64_t{64} << 20, most_per_byte = 64;
 };
 
 bool IsArchive(const std::filesystem::path& file);  // tests the extension

@@ -40,6 +40,13 @@ std::string ReadSceneText(const fs::path& file) {
   return text;
 }
 
+// scene.json of a folder, or the file that was named itself.
+fs::path OwnSceneFile(const fs::path& scene) {
+  fs::path file = SceneFile(scene);
+  if (file != scene) RequireInFolder(scene, file.filename());
+  return file;
+}
+
 // Each fault begins with its line in the file.
 Scene ReadSceneFile(const fs::path& file, std::vector<JsonFault>& faults) {
   const std::string text = ReadSceneText(file);
@@ -66,16 +73,26 @@ fs::path SceneFile(const fs::path& scene) {
   return fs::is_directory(scene, ignored) ? scene / "scene.json" : scene;
 }
 
-void RequireInFolder(const fs::path& folder, const fs::path& name) {
+bool IsInFolder(const fs::path& folder, const fs::path& name) {
   std::error_code fault;
   const fs::path inside = fs::canonical(folder, fault);
-  const fs::path file = fault ? fs::path() : fs::canonical(folder / name, fault);
-  if (fault) return;  // not there, which whoever reads it says better
-  if (std::mismatch(inside.begin(), inside.end(), file.begin(), file.end()).first == inside.end())
-    return;
+  if (fault) return true;  // a folder that is still to be made holds no link
+  fs::path file = fs::canonical(folder / name, fault);
+  if (fault) {
+    // Not there: a link that leads nowhere must not be written through either.
+    if (fs::is_symlink(folder / name, fault)) return false;
+    file = fs::weakly_canonical((folder / name).parent_path(), fault);
+    if (fault) return false;
+  }
+  return std::mismatch(inside.begin(), inside.end(), file.begin(), file.end()).first ==
+         inside.end();
+}
+
+void RequireInFolder(const fs::path& folder, const fs::path& name) {
+  if (IsInFolder(folder, name)) return;
   throw Error(Code::kBadScene,
-              fmt::format("\"{}\" is a link to a file outside the scene's folder, which a copy of "
-                          "the scene does not follow; put the file itself there",
+              fmt::format("\"{}\" is a link to a file outside the scene's folder, which a scene "
+                          "neither reads nor writes; put the file itself there",
                           name.generic_string()),
               folder);
 }
@@ -91,8 +108,9 @@ Scene ReadScene(const fs::path& scene) {
     }
   }
   std::vector<JsonFault> faults;
-  Scene values = ReadSceneFile(SceneFile(scene), faults);
-  ThrowFirst(faults, SceneFile(scene));
+  const fs::path file = OwnSceneFile(scene);
+  Scene values = ReadSceneFile(file, faults);
+  ThrowFirst(faults, file);
   return values;
 }
 
@@ -119,7 +137,7 @@ LoadedScene LoadFolder(const fs::path& scene, std::shared_ptr<const TemporaryFol
   };
   attempt([&] {
     std::vector<JsonFault> json_faults;
-    loaded.scene = ReadSceneFile(file, json_faults);
+    loaded.scene = ReadSceneFile(OwnSceneFile(loaded.unpacked ? folder : scene), json_faults);
     for (const JsonFault& fault : json_faults) keep(Error(Code::kBadScene, fault.sentence, file));
   });
   const auto named = [&](const std::string& key, const fs::path& name, const auto& read) {
@@ -132,6 +150,7 @@ LoadedScene LoadFolder(const fs::path& scene, std::shared_ptr<const TemporaryFol
                                 "or mend the name",
                                 key, name.generic_string()),
                     file);
+      RequireInFolder(folder, name);
       AssetFile& asset = loaded.files[name.generic_string()];
       asset.file = fs::absolute(folder / name);
       asset.part = read(folder / name);
@@ -176,10 +195,8 @@ LoadedScene LoadFolder(const fs::path& scene, std::shared_ptr<const TemporaryFol
   const auto only_named = [&](const std::string& key, const fs::path& name) {
     named(key, name, [](const fs::path&) -> Part { return nullptr; });
   };
-  for (const auto& [word, name] : UnmendedFilesOf(loaded.scene)) {
-    attempt([&, &file_name = name] { RequireInFolder(folder, file_name); });
+  for (const auto& [word, name] : UnmendedFilesOf(loaded.scene))
     only_named(std::string(kUnmendedDepthKey) + "." + word, name);
-  }
   for (std::size_t i = 0; i < loaded.scene.exercises.size(); ++i) {
     const Exercise& exercise = loaded.scene.exercises[i];
     only_named(fmt::format("exercises[{}].picture", i), exercise.picture);
@@ -229,8 +246,10 @@ void WriteScene(const fs::path& scene_json, const Scene& scene) {
   SceneFromJson(ParseJson(text, Code::kBadScene, scene_json),
                 faults);  // also catches NaN, which JSON has no word for
   ThrowFirst(faults, scene_json);
+  const fs::path folder = scene_json.has_parent_path() ? scene_json.parent_path() : fs::path(".");
+  RequireInFolder(folder, scene_json.filename());
   WriteAtomically(scene_json, text);
-  RemoveLeftovers(scene_json.has_parent_path() ? scene_json.parent_path() : ".");
+  RemoveLeftovers(folder);
 }
 
 }  // namespace arthro

@@ -28,8 +28,11 @@ LoadedScene LoadScene(const std::filesystem::path& scene, std::vector<std::strin
 // the file is touched.
 void WriteScene(const std::filesystem::path& scene_json, const Scene& scene);
 
-// Throws Error(kBadScene) where `name` is a link, or lies behind one, that leaves the folder: a
-// copy of the scene would carry a file that has nothing to do with it.
+// False where `name` is a link, or lies behind one, that leaves the folder or leads nowhere. The
+// name need not exist: then the question is where it would be written.
+bool IsInFolder(const std::filesystem::path& folder, const std::filesystem::path& name);
+// Throws Error(kBadScene) where it is not. A scene reads and writes only what lies in its folder,
+// since it may come from a stranger.
 void RequireInFolder(const std::filesystem::path& folder, const std::filesystem::path& name);
 
 // The scene.json that a folder or a file name stands for.

@@ -2,9 +2,7 @@
 
 #include <cmath>
 #include <cstring>
-#include <iostream>
 #include <memory>
-#include <mutex>
 #include <sstream>
 #include <tiffio.h>
 #include <tiffio.hxx>
@@ -18,6 +16,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/formats/picture_formats.h"
+#include "simulation/scene/formats/quiet_error_stream.h"
 
 namespace arthro {
 namespace {
@@ -39,22 +38,6 @@ std::string BytesOf(const fs::path& file) {
   return bytes;
 }
 
-// OpenCV prints what it catches on std::cerr, which nothing here writes to.
-class QuietErrorStream {
- public:
-  QuietErrorStream() : lock_(Mutex()) { std::cerr.setstate(std::ios::badbit); }
-  ~QuietErrorStream() { std::cerr.clear(); }
-  QuietErrorStream(const QuietErrorStream&) = delete;
-  QuietErrorStream& operator=(const QuietErrorStream&) = delete;
-
- private:
-  static std::mutex& Mutex() {
-    static std::mutex mutex;
-    return mutex;
-  }
-  const std::lock_guard<std::mutex> lock_;
-};
-
 // The formats that are rarely used. `bytes` have a head that was checked.
 ColourImage DecodeWithOpenCv(const std::string& bytes, const fs::path& file) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
@@ -68,7 +51,6 @@ ColourImage DecodeWithOpenCv(const std::string& bytes, const fs::path& file) {
     bgr.release();
   }
   if (bgr.empty()) RefuseDamagedPicture(file);
-  RequireSize(static_cast<std::uint64_t>(bgr.cols), static_cast<std::uint64_t>(bgr.rows), file);
   ColourImage image(bgr.cols, bgr.rows);
   for (int y = 0; y < bgr.rows; ++y) {
     const unsigned char* from = bgr.ptr<unsigned char>(y);
@@ -142,8 +124,10 @@ ColourImage ReadColourImage(const fs::path& file) {
     case PictureFormat::kPnm:
       CheckPnm(bytes, file);
       return DecodeWithOpenCv(bytes, file);
-    case PictureFormat::kWebp:  // at most 16383 x 16383 by its format
+    case PictureFormat::kWebp:
+      CheckWebp(bytes, file);
       return DecodeWithOpenCv(bytes, file);
+    case PictureFormat::kExr:
     case PictureFormat::kUnknown:
       break;
   }
@@ -173,7 +157,7 @@ DepthMap ReadDepthMap(const fs::path& file) {
       "a depth map must be a one-channel 32-bit float TIFF in metres; make one with "
       "`arthroscene depth`";
   const PictureFormat format = FormatOf(bytes);
-  if (format == PictureFormat::kUnknown)
+  if (format == PictureFormat::kUnknown || format == PictureFormat::kExr)
     throw Error(Code::kBadImage,
                 "this file is not a picture that can be read; a depth map is a one-channel 32-bit "
                 "float TIFF",

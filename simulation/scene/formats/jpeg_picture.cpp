@@ -110,7 +110,7 @@ ColourImage DecodeJpeg(std::string_view bytes, const std::filesystem::path& file
   reading.progress.progress_monitor = OnProgress;
   reading.jpeg.client_data = &reading;
   if (!ReadHead(reading, bytes)) RefuseDamagedPicture(file);
-  RequireSize(reading.jpeg.image_width, reading.jpeg.image_height, file);
+  RequireSize(reading.jpeg.image_width, reading.jpeg.image_height, bytes, file);
   reading.image.width = static_cast<int>(reading.jpeg.image_width);
   reading.image.height = static_cast<int>(reading.jpeg.image_height);
   const bool is_read = ReadPixels(reading);

@@ -1,5 +1,6 @@
 // PNG through libpng itself, which OpenCV uses too: only so can its words be kept off stderr and a
 // damaged picture be told from a whole one.
+#include <algorithm>
 #include <csetjmp>
 #include <cstring>
 #include <png.h>
@@ -32,9 +33,11 @@ void ReadBytes(png_structp png, png_bytep to, std::size_t size) {
 
 [[noreturn]] void OnFault(png_structp png, png_const_charp) { png_longjmp(png, 1); }
 
-// A checksum of the pixels that is wrong is only a warning to libpng.
+// A checksum of the pixels that is wrong is only a warning to libpng, and so is a chunk beyond the
+// limit, for which it would take memory all the same.
 void OnWarning(png_structp png, png_const_charp words) {
   const std::string_view said = words;
+  if (said.find("chunk data is too large") != said.npos) png_longjmp(png, 1);
   if (said.starts_with("IDAT:") && said.find("incorrect") != said.npos)
     static_cast<PngReading*>(png_get_error_ptr(png))->is_damaged = true;
 }
@@ -101,10 +104,13 @@ ColourImage DecodePng(std::string_view bytes, const std::filesystem::path& file)
   reading.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reading, OnFault, OnWarning);
   if (reading.png) reading.info = png_create_info_struct(reading.png);
   if (!reading.info) throw std::bad_alloc();
+  // Debian's libpng takes what a chunk claims before it looks whether the file holds it.
+  constexpr std::size_t kUsualChunk = 8'000'000;  // bytes, libpng's own default
+  png_set_chunk_malloc_max(reading.png, std::max(kUsualChunk, bytes.size()));
   if (!ReadHead(reading)) RefuseDamagedPicture(file);
   const std::uint32_t width = png_get_image_width(reading.png, reading.info),
                       height = png_get_image_height(reading.png, reading.info);
-  RequireSize(width, height, file);
+  RequireSize(width, height, bytes, file);
   reading.image.width = static_cast<int>(width);
   reading.image.height = static_cast<int>(height);
   if (!ReadPixels(reading) || reading.is_damaged) RefuseDamagedPicture(file);

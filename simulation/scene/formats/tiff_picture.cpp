@@ -44,12 +44,12 @@ std::unique_ptr<Tiff> Open(std::string_view bytes, const fs::path& file) {
                             "depth map as 32-bit float",
                             tiff->is_float() ? "floats" : "whole numbers", tiff->bits),
                 file);
-  RequireSize(tiff->width, tiff->height, file);
+  RequireSize(tiff->width, tiff->height, bytes, file);
   if (TIFFIsTiled(tiff->file.get())) {
     std::uint32_t width = 0, height = 0;
     TIFFGetField(tiff->file.get(), TIFFTAG_TILEWIDTH, &width);
     TIFFGetField(tiff->file.get(), TIFFTAG_TILELENGTH, &height);
-    RequireSize(width, height, file);
+    RequireSize(width, height, bytes, file);
   }
   return tiff;
 }
@@ -85,6 +85,10 @@ void ReadTiles(const Tiff& tiff, DepthMap& depth, const fs::path& file) {
 }
 
 }  // namespace
+
+bool IsFloatTiff(std::string_view bytes, const fs::path& file) {
+  return Open(bytes, file)->is_float();
+}
 
 ColourImage DecodeTiff(std::string_view bytes, const fs::path& file) {
   const auto tiff = Open(bytes, file);

@@ -1,6 +1,7 @@
 #include "simulation/scene/json/field_json.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include <glm/geometric.hpp>
 
@@ -29,7 +30,9 @@ double FileDegrees(double radians) {
   const double degrees = DegreesFromRadians(radians);
   if (!std::isfinite(degrees)) return degrees;
   for (int digits = 1; digits <= 16; ++digits) {
-    const double candidate = std::stod(fmt::format("{:.{}g}", degrees, digits));
+    const std::string text = fmt::format("{:.{}g}", degrees, digits);
+    double candidate = 0;  // std::stod throws at numbers below 1e-308
+    std::from_chars(text.data(), text.data() + text.size(), candidate);
     if (RadiansFromDegrees(candidate) == radians) return candidate;
   }
   return degrees;

@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "tests/support/temp_folder.h"
 
@@ -76,12 +77,35 @@ TEST(DepthImport, RefusesInOneSentenceWhatCannotBeTheDepthOfThisPanorama) {
   EXPECT_NE(RefusalOf(numbers, {}).find("5 x 2"), std::string::npos);
 }
 
+TEST(DepthImport, RefusesALargeHeadBeforeItIsDecoded) {
+  const test::TempFolder folder;
+  ::setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
+  const std::filesystem::path file = folder.path() / "d.exr";
+  ASSERT_TRUE(cv::imwrite(file.string(), cv::Mat(2, 4, CV_32F, cv::Scalar(42.5))));
+  std::string bytes = ReadWholeFile(file);
+  const std::size_t window = bytes.find("dataWindow");
+  ASSERT_NE(window, bytes.npos);
+  constexpr std::size_t kCorner = 11 + 6 + 4 + 8;  // name, type, size, first corner
+  bytes.replace(window + kCorner, 8, std::string("\xff\xff\0\0\xff\xff\0\0", 8));
+  std::ofstream(file, std::ios::binary) << bytes;
+  try {
+    ReadGreyNumbers(file);
+    ADD_FAILURE() << "read";
+  } catch (const Error& error) {
+    EXPECT_NE(error.sentence().find("65536 x 65536"), std::string::npos) << error.sentence();
+  }
+}
+
 TEST(DepthImport, RefusesFilesThatAreNoGreyPicture) {
   const test::TempFolder folder;
   cv::imwrite((folder.path() / "c.png").string(), cv::Mat(2, 4, CV_8UC3, cv::Scalar(1, 2, 3)));
   std::ofstream(folder.path() / "t.png") << "not a picture";
   std::ofstream(folder.path() / "e.png");
-  for (const char* name : {"c.png", "t.png", "e.png", "missing.png"})
+  // Formats whose decoders are not needed, whatever the file is called.
+  for (const char* name : {"g.jpg", "g.hdr"})
+    cv::imwrite((folder.path() / name).string(), cv::Mat(2, 4, CV_32FC3, cv::Scalar(1, 1, 1)));
+  std::filesystem::rename(folder.path() / "g.hdr", folder.path() / "g.exr");
+  for (const char* name : {"c.png", "t.png", "e.png", "g.jpg", "g.exr", "missing.png"})
     EXPECT_THROW(ReadGreyNumbers(folder.path() / name), Error) << name;
 }
 

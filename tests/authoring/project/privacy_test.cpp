@@ -1,7 +1,10 @@
 // A copy of a scene carries pixels, shapes and values, and no name of a patient.
+#include <memory>
+
 #include <gtest/gtest.h>
 
 #include "authoring/project/document_io.h"
+#include "authoring/project/written_files.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/files/archive_io.h"
@@ -179,6 +182,33 @@ TEST(Privacy, ACopyDoesNotFollowALinkOutOfTheScenesFolder) {
     fs::rename(folder / name, scene / name);
   }
   EXPECT_EQ(fault(), "");
+}
+
+TEST(Privacy, ASaveWritesAndRemovesNothingBehindALink) {
+  test::TempFolder folder;
+  const fs::path scene = WriteMarkedScene(folder), diary = folder / "diary.txt";
+  fs::create_directory(folder / "home");
+  WriteAtomically(diary, "mine");
+  WriteAtomically(folder / "home/known.txt", "of a known content");
+  Document document = OpenDocument(scene);
+  // A stranger could have put these there: the hidden list of a save, and a folder of assets.
+  fs::create_symlink(diary, scene / ".unfinished-save.json");
+  fs::create_symlink(folder / "home", scene / "sub");
+  document.scene.backdrop.depth = "sub/depth.tiff";
+  document.depth = std::make_shared<const DepthMap>(96, 64, 0.02f);
+  EXPECT_THROW(SaveDocument(document, scene), Error);
+  EXPECT_FALSE(fs::exists(folder / "home/depth.tiff"));
+  document.scene.backdrop.depth = "depth.tiff";
+  const Document saved = SaveDocument(document, scene);
+  EXPECT_EQ(saved.scene.backdrop.depth, "depth-2.tiff");
+  EXPECT_EQ(ReadWholeFile(diary), "mine");
+  // A list of files to remove that names one behind the link, with its true fingerprint.
+  Scene values = ReadScene(scene);
+  values.extensions["x-files-written"] =
+      JsonFromWrittenFiles({{"sub/known.txt", FingerprintOfFile(folder / "home/known.txt")}});
+  WriteScene(scene / "scene.json", values);
+  SaveDocument(OpenDocument(scene), scene);
+  EXPECT_TRUE(fs::exists(folder / "home/known.txt"));
 }
 
 TEST(Privacy, ASecretUnderAMeshesNameIsNotCarriedAlong) {

@@ -202,6 +202,10 @@ TEST(ArchiveIo, AnArchiveThatWouldFillTheDiskIsRefusedBeforeItDoes) {
             std::string::npos);
   EXPECT_EQ(FaultOfUnpacking(folder / "b.arthro", {6 << 20, 100}), "");
   EXPECT_NE(FaultOfUnpacking(folder / "b.arthro", {6 << 20, 1}).find("1 files"), std::string::npos);
+  // Nor one that is large only for its own size.
+  EXPECT_NE(FaultOfUnpacking(folder / "b.arthro", {6 << 20, 100, 4 << 20, 64}).find("4 MB"),
+            std::string::npos);
+  EXPECT_EQ(FaultOfUnpacking(folder / "b.arthro", {6 << 20, 100, 4 << 20, 2000}), "");
 }
 
 TEST(ArchiveIo, RefusesWhatIsNoArchiveOrHasNoScene) {

@@ -211,6 +211,29 @@ TEST(PictureFormats, HeadsBeyondTheLimitAreRefusedBeforeMemoryIsTaken) {
   EXPECT_NE(FaultOf(bmp).find("60000 x 60000"), std::string::npos);
 }
 
+// Pixels are bounded by the file: 16000 x 16000 of them take 0.8 GB, and flat ones pack into a few
+// kB.
+TEST(PictureFormats, ASmallFileIsNoLargePicture) {
+  test::TempFolder folder;
+  WriteAtomically(folder / "d.tiff", TiffOf(16000, 16000, 1));
+  EXPECT_THROW(ReadDepthMap(folder / "d.tiff"), Error);
+  std::string png = Encoded(".png", Picture(CV_8UC3));
+  png.replace(16, 8, std::string("\0\0\x3e\x80\0\0\x3e\x80", 8));
+  EXPECT_NE(FaultOf(WithChecksums(png)).find("16000 x 16000 pixels in a file of"),
+            std::string::npos);
+  // A comment that claims 650 MB. Only its refusal shows here; the corpus of tests/fuzz has its
+  // cost.
+  std::string comment = Encoded(".png", Picture(CV_8UC3));
+  comment.insert(comment.size() - 12, std::string("\x27\0\0\x25tEXt", 8));
+  EXPECT_EQ(FaultOf(comment), "this picture is damaged inside; copy or export it again");
+  std::string webp = Encoded(".webp", Picture(CV_8UC3));
+  ASSERT_EQ(webp.substr(12, 4), "VP8L") << "the losless form, as OpenCV writes it by default";
+  webp.replace(21, 4, std::string("\xff\xff\xff\x0f", 4));
+  EXPECT_NE(FaultOf(webp).find("16384 x 16384 pixels in a file of"), std::string::npos);
+  EXPECT_EQ(FaultOf(Encoded(".png", cv::Mat(8192, 8192, CV_8UC1, 7))), "")
+      << "as large as a small file may be";
+}
+
 TEST(PictureFormats, RandomDamageOfEveryFormatIsReadOrRefusedWithoutAWord) {
   std::mt19937 random(7);
   for (const char* const extension : {".png", ".jpg", ".tiff", ".bmp", ".webp", ".ppm"}) {

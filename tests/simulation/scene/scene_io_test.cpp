@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -55,6 +57,46 @@ TEST(SceneIo, FolderAndFileNameTheSameScene) {
   EXPECT_EQ(ReadScene(folder.path()).title, "small");
   EXPECT_EQ(ReadScene(folder / "scene.json").title, "small");
   EXPECT_EQ(SceneFile(folder.path()), folder / "scene.json");
+}
+
+// A stranger's folder, with a link in place of one of its files.
+TEST(SceneIo, AFolderReadsNothingThroughALinkThatLeavesIt) {
+  for (const char* name : {"p.png", "d.tiff", "scene.json"}) {
+    test::TempFolder folder;
+    const fs::path scene = folder / "scene";
+    fs::create_directory(scene);
+    WriteSmallFiles(scene);
+    WriteScene(scene / "scene.json", SmallScene());
+    fs::rename(scene / name, folder / name);
+    fs::create_symlink(folder / name, scene / name);
+    std::vector<std::string> faults;
+    const LoadedScene loaded = LoadScene(scene, faults);
+    ASSERT_EQ(faults.size(), 1u) << name;
+    EXPECT_NE(faults[0].find("link to a file outside"), std::string::npos) << faults[0];
+    EXPECT_FALSE(loaded.files.contains(name));
+    if (std::string(name) == "scene.json") {
+      EXPECT_NE(FaultOfReading(scene).find("link to a file outside"), std::string::npos);
+    }
+    // A link that stays inside is the author's own affair.
+    fs::create_directory(scene / "kept");
+    fs::remove(scene / name);
+    fs::rename(folder / name, scene / "kept" / name);
+    fs::create_symlink(scene / "kept" / name, scene / name);
+    EXPECT_NO_THROW(LoadScene(scene)) << name;
+  }
+}
+
+TEST(SceneIo, ASceneIsNotWrittenThroughALinkThatLeavesItsFolder) {
+  test::TempFolder folder;
+  fs::create_directory(folder / "scene");
+  for (const char* target : {"there.json", "missing.json"}) {
+    WriteAtomically(folder / "there.json", "mine");
+    fs::remove(folder / "scene" / "scene.json");
+    fs::create_symlink(folder / target, folder / "scene" / "scene.json");
+    EXPECT_THROW(WriteScene(folder / "scene" / "scene.json", SmallScene()), Error) << target;
+  }
+  EXPECT_EQ(ReadWholeFile(folder / "there.json"), "mine");
+  EXPECT_FALSE(fs::exists(folder / "missing.json"));
 }
 
 TEST(SceneIo, LoadsTheFilesItNames) {
