@@ -67,7 +67,7 @@ class Release {
       : drawn_(drawn),
         size_(drawn.panorama->width, drawn.panorama->height),
         shown_(MakeDrawnRelief(size_, drawn.before.relief, drawn.before.sigma, drawn.backdrop,
-                               ReliefNoise::kKept)),
+                               NoiseRemoval::kRough)),
         copy_(drawn.before) {}
 
   // Waits for this: the tiles of the stroke.

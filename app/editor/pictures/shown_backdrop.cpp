@@ -5,6 +5,7 @@
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/portals/reach_board.h"
 #include "app/view/exposure/footage_light.h"
+#include "simulation/scene/shrunk_projection.h"
 
 namespace arthro::app {
 
@@ -51,7 +52,7 @@ std::shared_ptr<const DrawnRelief> ShownBackdrop::NoisyRelief(const ReliefWork::
   }
   awaited_ = source;
   return std::make_shared<const DrawnRelief>(MakeDrawnRelief(
-      source.panorama_size, *source.depth, *source.sigma, source.backdrop, ReliefNoise::kKept));
+      source.panorama_size, *source.depth, *source.sigma, source.backdrop, NoiseRemoval::kRough));
 }
 
 bool ShownBackdrop::TakeRelief(const Content& wanted, const Backdrop& drawn) {
@@ -99,7 +100,7 @@ bool ShownBackdrop::Take(const EditorState& state, ArthroscopicView& scope, Over
   return true;
 }
 
-// The relief that was shown with its noise is shown without it once that is removed.
+// The relief that was shown rough is shown as it is once it has been made.
 bool ShownBackdrop::TakeQuietRelief(ArthroscopicView& scope) {
   if (!awaited_) return false;
   const auto made = work_.Find(*awaited_);

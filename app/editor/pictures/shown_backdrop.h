@@ -1,6 +1,7 @@
 // Panorama and relief that the scope's picture and the overview show: hands them what changed since
-// the last frame. The noise of a depth map is removed beside the window; until that is done, the
-// last relief of the panorama stays, moved where a stroke of a brush changed the map.
+// the last frame. The noise of a depth map is removed beside the window; until that is done, a
+// rough relief is drawn, or the last relief of the panorama, moved where a stroke of a brush
+// changed the map.
 #pragma once
 
 #include <memory>
@@ -52,7 +53,7 @@ class ShownBackdrop {
   Content shown_;
   std::shared_ptr<const DrawnRelief> relief_;  // relief of a noisy map; null: not kept
   ReliefWork work_;
-  std::optional<ReliefWork::Source> awaited_;  // whose relief is shown with its noise
+  std::optional<ReliefWork::Source> awaited_;  // whose relief is shown rough, or moved
 };
 
 }  // namespace arthro::app

@@ -10,6 +10,7 @@
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
 #include "authoring/relief/editing/relief_view.h"
+#include "simulation/scene/shrunk_projection.h"
 
 namespace arthro::app {
 namespace {

@@ -11,13 +11,6 @@ constexpr std::size_t kMostKept = 64;  // records, not maps
 
 }  // namespace
 
-Projection Shrunk(Projection projection, double factor) {
-  projection.centre_px = (projection.centre_px - 0.5 * (factor - 1.0)) / factor;
-  projection.focal_px /= factor;
-  projection.px_per_deg /= factor;
-  return projection;
-}
-
 bool DepthCache::IsOf(const Made& made, const authoring::Document& document) {
   return made.panorama.lock() == document.panorama && made.strokes == document.depth_strokes &&
          SameOptions(made.options, document.depth_options);

@@ -13,10 +13,6 @@
 
 namespace arthro::app {
 
-// Converts a projection to the pixels of a smaller picture, whose pixel (x, y) covers
-// x·factor … x·factor + factor − 1.
-Projection Shrunk(Projection projection, double factor);
-
 class DepthCache {
  public:
   // Records that the depth map of `document` was made from its panorama and options.

@@ -13,6 +13,7 @@
 #include "simulation/core/same_options.h"
 #include "simulation/core/units.h"
 #include "simulation/haptics/relief/relief_smoothing.h"
+#include "simulation/scene/shrunk_projection.h"
 
 namespace arthro::app {
 namespace {

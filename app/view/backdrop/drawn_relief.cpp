@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/view/backdrop/rough_relief.h"
 #include "simulation/core/units.h"
 #include "simulation/haptics/relief/relief_smoothing.h"
 #include "simulation/scene/backdrop/relief_shares.h"
@@ -51,12 +52,15 @@ void MakeTextures(const glm::ivec2& panorama_size, const ReliefMaps& after,
 }  // namespace
 
 DrawnRelief MakeDrawnRelief(const glm::ivec2& panorama_size, const DepthMap& depth,
-                            const DepthMap& sigma, const Backdrop& backdrop, ReliefNoise noise,
+                            const DepthMap& sigma, const Backdrop& backdrop, NoiseRemoval removal,
                             const std::atomic<bool>* stop) {
   DrawnRelief made;
-  const bool removes = !sigma.empty() && !depth.empty() && noise == ReliefNoise::kRemoved;
-  made.sampled =
-      SampledRelief(removes ? simulation::WithoutNoise(depth, sigma, backdrop, stop) : depth);
+  if (sigma.empty() || depth.empty())
+    made.sampled = SampledRelief(depth);
+  else if (removal == NoiseRemoval::kRough)
+    made.sampled = RoughRelief(depth, sigma, backdrop);
+  else
+    made.sampled = SampledRelief(simulation::WithoutNoise(depth, sigma, backdrop, stop));
   MakeTextures(panorama_size, {depth, sigma}, backdrop, made);
   return made;
 }

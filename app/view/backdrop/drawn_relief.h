@@ -22,8 +22,9 @@ struct DrawnRelief {
   double least_side = 0;  // m, height of the lowest step that has a side; 0: no limit
 };
 
-// Whether the noise of a depth map is removed, or drawn until that is done.
-enum class ReliefNoise { kRemoved, kKept };
+// How the noise of a depth map is removed: wholly, or quickly, to be drawn until that is done
+// (rough_relief.h).
+enum class NoiseRemoval { kWhole, kRough };
 
 // Maps of the same backdrop. `sigma`: standard error of the depth map, of its size; empty: not
 // known.
@@ -35,7 +36,7 @@ struct ReliefMaps {
 // Throws Error(kCancelled) once `stop` is set; null: it never is. The same holds below.
 DrawnRelief MakeDrawnRelief(const glm::ivec2& panorama_size, const DepthMap& depth,
                             const DepthMap& sigma, const Backdrop& backdrop,
-                            ReliefNoise noise = ReliefNoise::kRemoved,
+                            NoiseRemoval removal = NoiseRemoval::kWhole,
                             const std::atomic<bool>* stop = nullptr);
 
 // Part of the map in which both differ, when it is small against the map: a stroke of a brush or

@@ -22,7 +22,7 @@ DrawnRelief Make(const Source& source, const Source& before, const DrawnRelief* 
       return WithChange(*made, source.panorama_size, MapsOf(source), source.backdrop, *changed,
                         stop);
   return MakeDrawnRelief(source.panorama_size, OrEmpty(source.depth), OrEmpty(source.sigma),
-                         source.backdrop, ReliefNoise::kRemoved, stop);
+                         source.backdrop, NoiseRemoval::kWhole, stop);
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST(ReliefWork, MakesTheReliefThatIsAskedForLast) {
 TEST(ReliefWork, MovesTheLastReliefBesideTheCaller) {
   const ReliefWork::Source before = NoisySource(512, 384);
   const auto shown = std::make_shared<const DrawnRelief>(MakeDrawnRelief(
-      before.panorama_size, *before.depth, *before.sigma, before.backdrop, ReliefNoise::kKept));
+      before.panorama_size, *before.depth, *before.sigma, before.backdrop, NoiseRemoval::kRough));
   DepthMap raised = *before.depth;
   for (int y = 100; y < 130; ++y)
     for (int x = 200; x < 260; ++x) raised.at(x, y) += 1e-3f;
@@ -121,9 +121,9 @@ TEST(ReliefWork, MovesTheLastReliefBesideTheCaller) {
 
 class ReliefOfNoise : public ViewTest {};
 
-// The picture is the same whoever made the relief; until then it shows the map as it is.
+// The picture is the same whoever made the relief; until then it shows a rough one.
 TEST_F(ReliefOfNoise, MadeBesideTheWindowGivesTheSamePicture) {
-  constexpr int kTexels = 256, kSize = 128;
+  constexpr int kTexels = 512, kSize = 128;  // more than the rough relief keeps
   ReliefWork::Source source = NoisySource(kTexels, kTexels);
   source.backdrop.relight = 0.6;
   const ColourImage grey = Grey(kTexels, kTexels, 110);
@@ -143,9 +143,9 @@ TEST_F(ReliefOfNoise, MadeBesideTheWindowGivesTheSamePicture) {
   const auto made = Await(work, source);
   ASSERT_NE(made, nullptr);
   EXPECT_EQ(drawn(made.get()), at_once);
-  const DrawnRelief noisy = MakeDrawnRelief(source.panorama_size, *source.depth, *source.sigma,
-                                            source.backdrop, ReliefNoise::kKept);
-  EXPECT_NE(drawn(&noisy), at_once);
+  const DrawnRelief rough = MakeDrawnRelief(source.panorama_size, *source.depth, *source.sigma,
+                                            source.backdrop, NoiseRemoval::kRough);
+  EXPECT_NE(drawn(&rough), at_once);
   view_->SetDepth(*source.depth, *source.sigma, made.get());
   view_->Render(picture, kSize);
   EXPECT_EQ(view_->ReadPixels().rgb, at_once);
