@@ -18,6 +18,7 @@ void AddEveryJob(CLI::App& program) {
 #ifdef ARTHRO_EDITOR
   AddEditJob(program);
 #endif
+  AddHelpJob(program);
   AddLensJob(program);
   AddModelJob(program);
   AddPanoramaJob(program);

@@ -27,6 +27,7 @@ void AddDemoJob(CLI::App& program);
 void AddDepthJob(CLI::App& program);
 void AddDevicesJob(CLI::App& program);
 void AddEditJob(CLI::App& program);  // runs without a job as well
+void AddHelpJob(CLI::App& program);
 void AddLensJob(CLI::App& program);
 void AddModelJob(CLI::App& program);
 void AddPanoramaJob(CLI::App& program);

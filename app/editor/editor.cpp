@@ -192,7 +192,7 @@ class Editor {
     if (options_.practice)
       BeginPractice();
     else
-      state_.message = options_.notice.empty() ? "F1 or ? shows all keys." : options_.notice;
+      state_.message = options_.notice.empty() ? "F1 or ? opens the manual at this page." : options_.notice;
     OpenLessons(state_, RecordsFor(options_));
     recovery_.Offer(state_);
   }

@@ -5,6 +5,7 @@
 
 #include <GLFW/glfw3.h>
 
+#include "app/editor/help/open_help.h"
 #include "app/files/browse_preview.h"
 #include "app/files/scene_files.h"
 #include "app/files/start_page.h"
@@ -148,14 +149,6 @@ constexpr Command kWindowCommands[] = {
      {},
      Always,
      [](State& state) { state.full_screen = !state.full_screen; }},
-    {"help",
-     "?",
-     "All keys and mouse actions.",
-     "Window",
-     {GLFW_KEY_F1},
-     {},
-     Always,
-     [](State& state) { state.dialogs.push_back(HelpDialog{}); }},
 };
 
 }  // namespace
@@ -182,7 +175,8 @@ std::span<const Command> AllCommands() {
                              IncisionCommands(),
                              BudgetCommands(),
                              std::span<const Command>(kViewCommands),
-                             std::span<const Command>(kWindowCommands)})
+                             std::span<const Command>(kWindowCommands),
+                             HelpCommands()})
       commands.insert(commands.end(), group.begin(), group.end());
     return commands;
   }();

@@ -55,7 +55,12 @@ struct UnitDialog {
   double longest_side = 0;  // longest side of its bounding box
   std::string unit;
 };
-struct HelpDialog {};
+// A page of the manual (app/editor/help/open_help.h).
+struct HelpDialog {
+  std::string page, text;                  // name and Markdown
+  std::vector<std::string> names, titles;  // pages in the order of the index
+  std::string problem;                     // why there are none; empty: there are
+};
 struct SettingsDialog {};
 struct PracticeEndedDialog {
   double seconds = 0;

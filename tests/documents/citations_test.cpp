@@ -41,6 +41,7 @@ std::set<std::string> FirstCells(const std::string& text) {
 Targets TargetsOf(const fs::path& documents) {
   Targets targets;
   for (const auto& entry : fs::directory_iterator(documents)) {
+    if (!entry.is_regular_file()) continue;
     std::istringstream lines(TextOf(entry.path()));
     for (std::string line; std::getline(lines, line);)
       if (line.starts_with("## "))

@@ -47,6 +47,7 @@ const std::map<std::string, Names> kAppMayInclude = {
     {"app/recording", {}},
     {"app/view", {}},
     {"app/platform", {"app/recording"}},
+    {"app/help", {"app/platform"}},
     {"app/state", {"app/platform"}},
     {"app/panels", {"app/platform", "app/state"}},
     {"app/steps",
@@ -54,8 +55,8 @@ const std::map<std::string, Names> kAppMayInclude = {
       "app/state", "app/view"}},
     {"app/files", {"app/platform", "app/state", "app/steps"}},
     {"app/editor",
-     {"app/about", "app/files", "app/panels", "app/platform", "app/recording", "app/state",
-      "app/steps", "app/view"}},
+     {"app/about", "app/files", "app/help", "app/panels", "app/platform", "app/recording",
+      "app/state", "app/steps", "app/view"}},
 };
 
 // Third-party headers, by how their path begins, that a whole side must not see. Files named

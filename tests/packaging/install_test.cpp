@@ -69,7 +69,8 @@ TEST_F(Install, HoldsProgramResourcesDocumentsLicenceAndDeviceRule) {
     EXPECT_TRUE(fs::exists(usr_ / file)) << file;
   for (const auto& entry :
        fs::recursive_directory_iterator(fs::path(ARTHRO_SOURCE_DIR) / "resources/doc"))
-    EXPECT_TRUE(fs::exists(usr_ / "share/doc/arthroscene/resources/doc" / entry.path().filename()))
+    EXPECT_TRUE(fs::exists(usr_ / "share/doc/arthroscene" /
+                           entry.path().lexically_relative(ARTHRO_SOURCE_DIR)))
         << entry.path();
 }
 

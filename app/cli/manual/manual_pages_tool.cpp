@@ -1,4 +1,5 @@
-// arthroscene-manual-pages FOLDER: writes the manual pages and the completion of bash there.
+// arthroscene-manual-pages FOLDER: writes the manual pages, the completion of bash and the manual's
+// page of keys there.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -7,6 +8,9 @@
 
 #include "app/about/about.h"
 #include "app/cli/command_line.h"
+#ifdef ARTHRO_EDITOR
+#include "app/cli/manual/keys_page.h"
+#endif
 #include "app/cli/manual/manual_pages.h"
 #include "simulation/core/atomic_file.h"
 
@@ -22,6 +26,9 @@ int main(int argc, char** argv) {
     arthro::app::DescribeProgram(program);
     for (const auto& [name, text] : arthro::app::ManualPages(program, arthro::app::Version()))
       arthro::WriteAtomically(folder / name, text);
+#ifdef ARTHRO_EDITOR
+    arthro::WriteAtomically(folder / "keys.md", arthro::app::KeysPage());
+#endif
     arthro::WriteAtomically(folder / "arthroscene.bash", arthro::app::BashCompletion(program));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "arthroscene-manual-pages: %s\n", error.what());

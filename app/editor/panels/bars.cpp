@@ -90,7 +90,7 @@ void TopBar(Ui& ui, EditorState& state, const Area& area) {
   const std::string title_of_scene = state.document().scene.title;
   const std::string name = title_of_scene.empty() ? ui.In("Untitled") : title_of_scene;
   const std::string title = (state.history.IsSaved() ? "" : "• ") + name;
-  const float help = ImGui::GetFrameHeight() + ui.Px(12);
+  const float help = ui.WidthOf("Help") + ui.Px(20);
   ImGui::AlignTextToFramePadding();
   const float room = area.width - help - ui.Px(24) - ImGui::GetCursorPosX();
   ImGui::PushClipRect(ImGui::GetCursorScreenPos(),
@@ -104,7 +104,7 @@ void TopBar(Ui& ui, EditorState& state, const Area& area) {
                                 ? name.c_str()
                                 : (name + ": " + ui.In("changed since it was saved")).c_str());
   ImGui::SameLine(area.width - help - ui.Px(12));
-  CommandButton(ui, state, "help", {help, 0});
+  CommandButton(ui, state, "manual", {help, 0});
 }
 
 void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& notice) {

@@ -170,8 +170,8 @@ void Draw(Ui& ui, EditorState& state, RecoveryDialog& dialog) {
   if (discard) taken.discard(state);
 }
 
-void Draw(Ui& ui, EditorState& state, HelpDialog&) {
-  HelpWindow(ui, state);
+void Draw(Ui& ui, EditorState& state, HelpDialog& dialog) {
+  HelpWindow(ui, state, dialog);
   if (Button(ui, "Close", true, {ui.Px(110), 0}) || EnterPressed() || EscapePressed())
     Take<HelpDialog>(state);
 }
@@ -201,7 +201,7 @@ struct WindowSize {
 };
 WindowSize SizeOf(const Dialog& dialog) {
   if (std::holds_alternative<BrowseDialog>(dialog)) return {940, 560};
-  if (std::holds_alternative<HelpDialog>(dialog)) return {760, 640};
+  if (std::holds_alternative<HelpDialog>(dialog)) return {820, 680};
   if (std::holds_alternative<HistoryDialog>(dialog)) return {820, 560};
   if (std::holds_alternative<ErrorDialog>(dialog)) return {560, 0};
   return {};

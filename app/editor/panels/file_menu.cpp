@@ -38,7 +38,7 @@ void FileMenu(Ui& ui, EditorState& state) {
   ImGui::Separator();
   for (const char* id : {"record-script", "end-script"}) Entry(ui, state, id);
   ImGui::Separator();
-  for (const char* id : {"settings", "full-screen", "help", "quit"}) Entry(ui, state, id);
+  for (const char* id : {"settings", "full-screen", "manual", "keys", "quit"}) Entry(ui, state, id);
   ImGui::EndPopup();
 }
 

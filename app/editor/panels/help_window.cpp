@@ -1,5 +1,5 @@
-// All keys and mouse actions, made from the lists that they are made from, and what the program is.
-#include <algorithm>
+// The manual's pages, all keys and mouse actions, and what the program is.
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -7,27 +7,15 @@
 #include <imgui.h>
 
 #include "app/about/about.h"
+#include "app/editor/help/key_list.h"
+#include "app/editor/help/manual_page.h"
+#include "app/editor/help/open_help.h"
 #include "app/editor/panels/panels.h"
+#include "app/help/help_pages.h"
 #include "app/state/command.h"
-#include "app/steps/practice/hand_motion.h"
 
 namespace arthro::app {
 namespace {
-
-void KeyRow(Ui& ui, const std::string& keys, const std::string& words) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ColouredText(ui, keys, kAccent);
-  ImGui::TableNextColumn();
-  Text(ui, words);
-}
-
-bool BeginRows(Ui& ui, const char* name) {
-  if (!ImGui::BeginTable(name, 2)) return false;
-  ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, ui.Px(210));
-  ImGui::TableSetupColumn("words", ImGuiTableColumnFlags_WidthStretch);
-  return true;
-}
 
 void AboutSection(Ui& ui) {
   if (!Section(ui, "About this program")) return;
@@ -51,92 +39,55 @@ void AboutSection(Ui& ui) {
   QuietText(ui, "The texts of the licences are in share/arthroscene/built-with.txt.");
 }
 
-}  // namespace
-
-void HelpWindow(Ui& ui, EditorState& state) {
-  Heading(ui, "Keys and mouse");
-  const float foot = ImGui::GetFrameHeightWithSpacing() + ui.Px(6);
-  ImGui::BeginChild("help", {0, -foot});
-  Heading(ui, "Over the picture");
-  if (BeginRows(ui, "mouse")) {
-    KeyRow(ui, "Drag", "Swing the scope");
-    KeyRow(ui, "Wheel", "Scope deeper, or back");
-    KeyRow(ui, "Shift+wheel", "Roll the scope");
-    KeyRow(ui, "Right drag", "Swing the instrument");
-    KeyRow(ui, "Ctrl+wheel", "Instrument deeper, or back");
-    KeyRow(ui, "Ctrl+Shift+wheel", "Roll the instrument");
-    ImGui::EndTable();
-  }
-  Gap(ui);
-  Heading(ui, "Over the overview");
-  if (BeginRows(ui, "overview mouse")) {
-    KeyRow(ui, "Drag", "Turn it");
-    KeyRow(ui, "Wheel or right drag", "Nearer, or further");
-    KeyRow(ui, "Middle drag", "Shift it");
-    KeyRow(ui, "Drag the handle", "Move the chosen tissue");
-    KeyRow(ui, "Shift+drag the handle", "Turn the chosen tissue");
-    KeyRow(ui, "Right drag the handle", "Make it larger, or smaller");
-    KeyRow(ui, "Drag the border", "Give one view more room");
-    KeyRow(ui, "Esc", "End holding, cutting and naming by clicks");
-    ImGui::EndTable();
-  }
-  Gap(ui);
-  Heading(ui, "On the footage's board");
-  if (BeginRows(ui, "footage")) {
-    KeyRow(ui, "Left, Right", "Frame before, or next");
-    KeyRow(ui, "Page up, Page down", "Ten frames back, or on");
-    KeyRow(ui, "Space, double-click", "Use this frame, or leave it out");
-    KeyRow(ui, "Escape", "Back to the panorama");
-    KeyRow(ui, "Wheel, drag", "Look closer, shift; double-click shows all");
-    ImGui::EndTable();
-  }
-  Gap(ui);
-  Heading(ui, "On the map of the depth");
-  if (BeginRows(ui, "depth map")) {
-    KeyRow(ui, "Click", "Read a depth, set a point or paint, by the tool");
-    KeyRow(ui, "Drag", "Draw the line of a profile or a length, or paint");
-    KeyRow(ui, "Wheel, right drag", "Look closer, shift");
-    KeyRow(ui, "[, ]", "Smaller brush, larger brush");
-    KeyRow(ui, "Escape", "Leave the brush");
-    ImGui::EndTable();
-  }
-  Gap(ui);
-  Heading(ui, "Hands, while a key is held");
-  if (BeginRows(ui, "hands")) {
-    for (const HandMotion& motion : HandMotions()) KeyRow(ui, motion.key_words, motion.words);
-    KeyRow(ui, "C", "Close the jaws, run the shaver");
-    KeyRow(ui, "V", "Dead-man switch: the devices may push");
-    ImGui::EndTable();
-  }
-  QuietText(ui, "Arrow and page keys move the scope after a click on the picture.");
-  Gap(ui);
-
-  // Commands, each group once, in the order of its first command.
-  std::vector<std::string> groups;
-  for (const Command& command : state.commands)
-    if (!WordsOf(command.shortcut).empty() &&
-        std::find(groups.begin(), groups.end(), command.group) == groups.end())
-      groups.push_back(command.group);
-  for (const std::string& group : groups) {
-    Heading(ui, group);
-    if (!BeginRows(ui, group.c_str())) return ImGui::EndChild();
-    for (const Command& command : state.commands) {
-      const std::string keys = WordsOf(command.shortcut), other = WordsOf(command.other_shortcut);
-      if (keys.empty() || group != command.group) continue;
-      KeyRow(ui, other.empty() ? keys : fmt::format("{} or {}", keys, other), command.help);
+void KeyTables(Ui& ui, const EditorState& state) {
+  for (const KeyGroup& group : KeyGroups(state.commands)) {
+    Heading(ui, group.heading);
+    if (ImGui::BeginTable(group.heading.c_str(), 2)) {
+      ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, ui.Px(210));
+      ImGui::TableSetupColumn("words", ImGuiTableColumnFlags_WidthStretch);
+      for (const KeyRow& row : group.rows) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ColouredText(ui, row.keys, kAccent);
+        ImGui::TableNextColumn();
+        Text(ui, row.words);
+      }
+      ImGui::EndTable();
     }
-    ImGui::EndTable();
+    if (!group.note.empty()) QuietText(ui, group.note);
     Gap(ui);
   }
-  Heading(ui, "Anywhere");
-  if (BeginRows(ui, "anywhere")) {
-    KeyRow(ui, "Drop a file", "Open a scene or a video, import a panorama or a surface");
-    KeyRow(ui, "Ctrl+click a slider", "Type its number");
-    KeyRow(ui, "?", "This page");
-    ImGui::EndTable();
+}
+
+// Choice of the page, and the same page with pictures.
+void PageBar(Ui& ui, EditorState& state, const HelpDialog& dialog) {
+  int chosen = -1;
+  for (std::size_t i = 0; i < dialog.names.size(); ++i)
+    if (dialog.names[i] == dialog.page) chosen = static_cast<int>(i);
+  const bool is_changed = Combo(ui, "Page of the manual", chosen, dialog.titles);
+  const auto html = dialog.names.empty() ? std::nullopt : HelpInHtml(dialog.page);
+  const bool is_pressed = Button(ui, "Open in the browser", html.has_value());
+  Tooltip(ui, html ? "Show this page with its pictures." : WhereTheManualIs().c_str());
+  if (is_pressed && !OpenOnDesktop(*html))
+    state.message = "There is no browser: xdg-open is not on this machine.";
+  if (is_changed) OpenHelp(state, dialog.names[static_cast<std::size_t>(chosen)]);
+}
+
+}  // namespace
+
+void HelpWindow(Ui& ui, EditorState& state, const HelpDialog& dialog) {
+  const HelpDialog shown = dialog;  // another page takes its place while the bar is drawn
+  PageBar(ui, state, shown);
+  if (!shown.problem.empty()) ColouredText(ui, shown.problem, kWarning);
+  const float foot = ImGui::GetFrameHeightWithSpacing() + ui.Px(6);
+  ImGui::BeginChild(("help " + shown.page).c_str(), {0, -foot});
+  if (shown.page == kKeysPage) {
+    Heading(ui, "Keys and mouse");
+    KeyTables(ui, state);
+    AboutSection(ui);
+  } else {
+    ManualPage(ui, shown.text);
   }
-  Gap(ui);
-  AboutSection(ui);
   ImGui::EndChild();
 }
 

@@ -44,7 +44,7 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog,
                   const PictureTextureOf& texture_of);
 void HistoryWindow(Ui& ui, EditorState& state, HistoryDialog& dialog,
                    const PictureTextureOf& texture_of);
-void HelpWindow(Ui& ui, EditorState& state);
+void HelpWindow(Ui& ui, EditorState& state, const HelpDialog& dialog);
 
 // ---- The pictures. `texture` is an OpenGL texture with its first row at the bottom. ----
 struct PictureInput {

@@ -45,10 +45,37 @@ click Portals
 expect "Incision spacing"
 click "Practice"
 expect "Practise in the scene as it stands"
-click "?"
+click Help
+expect "Practice"
+click "Page of the manual"
+click "Keys and mouse"
+wait frames 3
 expect "Swing the scope"
 key escape
-expect not "Swing the scope's tip left"
+expect not "Swing the scope"
+)");
+}
+
+TEST_F(EditorWindow, HelpOpensThePageOfWhatIsShown) {
+  Drive(R"(
+click Depth
+type "?"
+wait frames 3
+expect "Settings of the estimate"
+key escape
+click Portals
+key f1
+wait frames 3
+expect "Step 4 sets where scope and instrument enter"
+click "Page of the manual"
+click "Troubleshooting"
+wait frames 3
+expect "I feel no force"
+key escape
+expect not "I feel no force"
+key shift+f1
+wait frames 3
+expect "Over the overview"
 )");
 }
 

@@ -245,7 +245,7 @@ void PracticeStepPanel(Ui& ui, EditorState& state) {
   Gap(ui);
   QuietText(ui,
             "Drag over the picture to swing the scope; turn the wheel to move it in and out. The "
-            "right button moves the instrument. Press ? for all keys.");
+            "right button moves the instrument. Press ? for help.");
   Gap(ui);
   ForcePanel(ui, state);
 }

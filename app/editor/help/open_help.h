@@ -1,0 +1,23 @@
+// The manual in the window: which page belongs to what is shown, and its text.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "app/state/command.h"
+
+namespace arthro::app {
+
+// Page of the manual about the keys; the window makes it from its own lists.
+inline constexpr const char* kKeysPage = "keys";
+
+// Name of the page about what the window shows: "depth", "practice", "window".
+std::string HelpPageOf(const EditorState& state);
+
+// Shows a page in the dialog, which is opened where there is none. A manual that is not installed
+// becomes a sentence beside the keys.
+void OpenHelp(EditorState& state, const std::string& page);
+
+std::span<const Command> HelpCommands();
+
+}  // namespace arthro::app
