@@ -118,7 +118,7 @@ void BeginExercise(EditorState& state) {
     step.finished.reset();
     step.page = LessonPage::kAttempt;
     const std::string notice =
-        BeginKeeping(*step.records, exercise, now.document().scene,
+        BeginKeeping(*step.records, exercise, now.document(),
                      step.is_test ? AttemptMode::kTest : AttemptMode::kPractice,
                      RigWords(*now.steps.practice->hands));
     now.message = notice.empty() ? "The attempt runs. Esc ends it." : notice;
