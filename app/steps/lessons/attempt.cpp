@@ -6,6 +6,7 @@
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/keeping/start_board.h"
 #include "app/steps/lessons/running_attempt.h"
+#include "app/steps/lessons/trainee.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/practice/start_practice.h"
 #include "simulation/practice/hands/offered_instruments.h"
@@ -100,7 +101,7 @@ const Exercise* ChosenExercise(const EditorState& state) {
 }
 
 bool MayBeginExercise(const EditorState& state) {
-  return ChosenExercise(state) != nullptr && MayPractise(state);
+  return ChosenExercise(state) != nullptr && MayPractise(state) && WhyShut(state).empty();
 }
 
 void BeginExercise(EditorState& state) {

@@ -67,6 +67,11 @@ std::span<const Command> LessonCommands();
 // Opens the records at `place`, or those of the user, and recovers attempts that were cut short. An
 // empty place keeps nothing.
 void OpenLessons(EditorState& state, const std::optional<std::string>& place);
+// Shows what an exercise of the scene asks for, to a trainee who begins it next; an empty code: the
+// attempt is not kept. The trainee's page takes its place where nobody has the code. Throws Error
+// for an exercise that the scene does not have.
+void OpenBriefing(EditorState& state, const std::string& exercise, const std::string& trainee,
+                  bool is_test);
 // The program ends: an attempt that runs is stopped and kept.
 void EndLessons(EditorState& state);
 
@@ -78,8 +83,15 @@ void PlayDebrief(EditorState& state, double seconds);
 // Frame that the look back shows; null: none.
 const simulation::AttemptFrame* DebriefFrame(const EditorState& state);
 
+// Shows the result of an attempt in the records. Frames that cannot be read, and a scene that is
+// not the one it was made in, leave FinishedAttempt::notice. Throws Error where the records do not
+// have it.
+void ShowStoredAttempt(EditorState& state, const std::string& id);
+// Asks for a file, and writes the report of the attempt that is shown.
+void SaveReport(EditorState& state);
+
 void ExercisesPanel(Ui& ui, EditorState& state);                     // the editor's step
-void TraineePage(Ui& ui, EditorState& state);                        // inside of the next one
+void TraineePage(Ui& ui, EditorState& state);                        // inside of the page below
 void LessonPagePanel(Ui& ui, EditorState& state, const Area& area);  // instead of the practice's
 // The look back: beside the scope's picture, and in the place of the overview.
 void DebriefSide(Ui& ui, EditorState& state, const Area& area);
