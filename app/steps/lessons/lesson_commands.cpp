@@ -4,6 +4,7 @@
 #include "app/state/edits.h"
 #include "app/steps/lessons/attempt.h"
 #include "app/steps/lessons/exercise_edit.h"
+#include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/keeping/start_board.h"
 #include "app/steps/practice/start_practice.h"
 
@@ -58,6 +59,46 @@ constexpr Command kCommands[] = {
        state.steps.lessons->start->is_stale = true;
        state.steps.lessons->page = LessonPage::kStart;
      }},
+    {"instructor-page",
+     "Instructor's page",
+     "Show all trainees of the records: attempts, gates, learning curves.",
+     "Lessons",
+     {GLFW_KEY_F7, true},
+     {},
+     [](const State& state) { return InEditor(state) || ShowsLesson(state); },
+     ShowInstructorPage},
+    {"open-gate",
+     "Open the gate",
+     "Open the chosen exercise for the chosen trainee; the audit keeps by whom and why.",
+     "Lessons",
+     {},
+     {},
+     MayOpenGate,
+     OpenChosenGate},
+    {"rate-attempt",
+     "Rate…",
+     "Fill in a rating form beside the look back.",
+     "Lessons",
+     {},
+     {},
+     MayRate,
+     ToggleRating},
+    {"keep-rating",
+     "Keep this rating",
+     "Write the rating with the attempt into the records.",
+     "Lessons",
+     {},
+     {},
+     MayKeepRating,
+     KeepRating},
+    {"attempt-table",
+     "Save table…",
+     "Write every attempt of the records as a table (CSV).",
+     "Lessons",
+     {},
+     {},
+     [](const State& state) { return state.steps.lessons->records->open != nullptr; },
+     SaveAttemptTable},
     {"repeat-exercise",
      "Again",
      "Begin another attempt at the same exercise.",

@@ -203,6 +203,7 @@ void LessonPagePanel(Ui& ui, EditorState& state, const Area& area) {
   LessonsStep& step = *state.steps.lessons;
   if (step.running) return UnderWay(ui, state);
   if (step.page == LessonPage::kStart) return TraineePage(ui, state);
+  if (step.page == LessonPage::kInstructor) return InstructorPage(ui, state);
   if (step.page == LessonPage::kBriefing && ChosenExercise(state) != nullptr)
     return Briefing(ui, state, *ChosenExercise(state));
   if (step.finished) Summary(ui, state, *step.finished);

@@ -130,6 +130,8 @@ void TraineePage(Ui& ui, EditorState& state) {
   Exercises(ui, state, board);
   ImGui::EndChild();
   CommandButton(ui, state, "close-lesson", {ui.Px(120), ui.Px(44)});
+  ImGui::SameLine();
+  CommandButton(ui, state, "instructor-page", {ui.Px(170), ui.Px(44)});
 }
 
 }  // namespace arthro::app
