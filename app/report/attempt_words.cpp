@@ -70,7 +70,7 @@ std::string OutcomeWords(const AttemptRecord& attempt) {
     case AttemptOutcome::kFailed:
       return with("Not passed");
     case AttemptOutcome::kStopped:
-      return with("Stopped before its end");
+      return with("Stopped");
     case AttemptOutcome::kVoid:
       return with("Void: it does not count");
     case AttemptOutcome::kRunning:

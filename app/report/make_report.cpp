@@ -97,7 +97,10 @@ void SetGroup(AttemptReport& report, Records& records, const std::string& group)
         [&](const MetricRow& each) { return each.name == row.metric && each.part == row.part; });
     const simulation::Metric* metric = MetricOf(row.metric);
     const auto values = members.find({row.metric, row.part});
-    if (own != report.attempt.metrics.end() && own->value && metric != nullptr &&
+    // Only an attempt that came to its end is held against others.
+    const bool is_whole = report.attempt.outcome == AttemptOutcome::kPassed ||
+                          report.attempt.outcome == AttemptOutcome::kFailed;
+    if (is_whole && own != report.attempt.metrics.end() && own->value && metric != nullptr &&
         values != members.end())
       standing.z = simulation::ZValue(*metric, *own->value, values->second);
   }

@@ -104,6 +104,12 @@ TEST(AttemptReport, ShowsTheMiddleHalfAndZOfAReferenceGroup) {
   EXPECT_FALSE(json["metrics"][1].contains("group"));
 }
 
+TEST(AttemptReport, DrawsNoBarForAStepThatWasNeverReached) {
+  AttemptReport report = SampleReport();
+  report.attempt.steps[1] = {"s2", "pending", 0, {}};
+  EXPECT_NE(AttemptPage(report).find("s2: not begun"), std::string::npos);
+}
+
 TEST(AttemptReport, OfHandsWithoutAnExerciseHasNoOutcome) {
   AttemptReport report = SampleReport();
   report.exercise = {};
