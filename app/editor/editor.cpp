@@ -189,11 +189,13 @@ class Editor {
     state_.steps.practice->head = options_.head;
     state_.steps.practice->trainee_screen = {options_.trainee_screen.has_value(),
                                              options_.trainee_screen.value_or(0), ""};
-    if (options_.practice)
+    if (options_.practice && !options_.lesson)
       BeginPractice();
     else
       state_.message = options_.notice.empty() ? "F1 or ? opens the manual at this page." : options_.notice;
     OpenLessons(state_, RecordsFor(options_));
+    if (const auto& lesson = options_.lesson)
+      OpenBriefing(state_, lesson->exercise, lesson->trainee, lesson->is_test);
     recovery_.Offer(state_);
   }
 

@@ -15,10 +15,17 @@
 
 namespace arthro::app {
 
+// An exercise that the window opens on.
+struct LessonChoice {
+  std::string exercise, trainee;  // id; code, empty: the attempt is not kept
+  bool is_test = false;
+};
+
 struct EditorOptions {
   // Absent: the start page is shown, or the demo scene for a script.
   std::optional<std::filesystem::path> scene;
   bool practice = false;                      // the practise job: nothing but practice
+  std::optional<LessonChoice> lesson;         // of the practise job; none: it begins at once
   simulation::HandsChoice hands;              // devices that hold them
   simulation::SessionOptions session;         // options of every practice
   std::optional<std::filesystem::path> film;  // film of a practice, from its beginning

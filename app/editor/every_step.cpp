@@ -11,6 +11,8 @@
 #include "app/files/start_page.h"
 #include "app/steps/budget/frame_budget.h"
 #include "app/steps/depth/depth_step.h"
+#include "app/steps/lessons/instructor/cohort_board.h"
+#include "app/steps/lessons/instructor/rating_board.h"
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/keeping/start_board.h"
 #include "app/steps/lessons/lessons_step.h"
@@ -200,6 +202,8 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
   steps.lessons.emplace();
   steps.lessons->records.emplace();
   steps.lessons->start.emplace();
+  steps.lessons->cohort.emplace();
+  steps.lessons->rating.emplace();
   steps.practice->budget.emplace();
   return EditorState(std::move(document), std::move(steps), AllCommands(), std::move(wake),
                      std::move(recent_file));

@@ -26,7 +26,8 @@ double TimeOf(std::size_t frame) { return simulation::kFrameTime * static_cast<d
 
 std::vector<PlotLine> Divisions(const AttemptReport& report) {
   std::vector<PlotLine> divisions;
-  for (const StepRow& step : report.attempt.steps) divisions.push_back({step.began, step.step});
+  for (const StepRow& step : report.attempt.steps)
+    if (step.outcome != "pending") divisions.push_back({step.began, step.step});
   return divisions;
 }
 
@@ -55,7 +56,13 @@ std::string StepsSvg(const AttemptReport& report) {
     const bool is_done = step.outcome == "done";
     const double stop = step.ended.value_or(end);
     row_of[step.step] = y;
-    text(kLeft - 8, y + 14, "end", fmt::format("{}: {}", step.step, step.outcome));
+    if (step.outcome == "pending") {  // it was never reached
+      text(kLeft - 8, y + 14, "end", fmt::format("{}: not begun", step.step));
+      y += kRow;
+      continue;
+    }
+    text(kLeft - 8, y + 14, "end",
+         fmt::format("{}: {}", step.step, step.outcome == "running" ? "not done" : step.outcome));
     // A failed step is hatched, so that it is told apart in black and white.
     svg += fmt::format(
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"14\" fill=\"{}\" "

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "app/plot/svg_text.h"
 #include "app/report/attempt_plots.h"
@@ -52,21 +51,42 @@ std::string HeadOf(const AttemptReport& report) {
       html += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", name, XmlText(text));
   };
   row("Trainee", report.trainee);
-  row("Exercise",
-      fmt::format("{} (version {})",
-                  report.exercise.title.empty() ? report.exercise.id : report.exercise.title,
-                  report.exercise.version));
+  if (HasExercise(report))
+    row("Exercise",
+        fmt::format("{} (version {})",
+                    report.exercise.title.empty() ? report.exercise.id : report.exercise.title,
+                    report.exercise.version));
   row("Goal", report.goal);
   row("Scene", attempt.scene);
-  row("Mode", AttemptModes().words[static_cast<std::size_t>(attempt.mode)].second);
+  if (report.is_mode_known) row("Mode", ToString(attempt.mode));
   row("Begin", attempt.started);
   row("Duration", attempt.duration ? ValueWords(attempt.duration, "s") + ", without pauses" : "");
-  row("Station",
-      report.rig.empty() ? report.station : fmt::format("{}, {}", report.station, report.rig));
+  row("Station", report.station);
+  row("Devices", report.rig);
+  row("Compared with", report.group);
   return html + "</tbody></table>\n";
 }
 
-std::string CriteriaOf(const AttemptRecord& attempt) {
+// Place among the members of a group: "5.2 to 8.1 N (n = 6), z = +0.4".
+std::string GroupWords(const AttemptReport& report, const std::string& metric,
+                       const std::string& part, const std::string& unit) {
+  const GroupStanding* standing = StandingIn(report, metric, part);
+  if (standing == nullptr || standing->n == 0) return "";
+  std::string words = fmt::format("{} to {} (n = {})", ValueWords(standing->q1, unit),
+                                  ValueWords(standing->q3, unit), standing->n);
+  if (standing->z) words += fmt::format(", z = {:+.1f}", *standing->z);
+  return words;
+}
+
+// Heads the columns of a table; the group has one where there is a group.
+Cells Head(const AttemptReport& report, Cells cells) {
+  if (!report.group.empty())
+    cells.insert(cells.begin() + 2, fmt::format("Middle half of {}", report.group));
+  return cells;
+}
+
+std::string CriteriaOf(const AttemptReport& report) {
+  const AttemptRecord& attempt = report.attempt;
   if (attempt.criteria.empty()) return "<p>This exercise has no criteria.</p>\n";
   std::vector<Cells> rows;
   for (const CriterionRow& criterion : attempt.criteria) {
@@ -77,16 +97,24 @@ std::string CriteriaOf(const AttemptRecord& attempt) {
                     : criterion.value ? "✗ not met"
                                       : "✗ not measured, so not met",
                     criterion.source});
+    if (!report.group.empty())
+      rows.back().insert(rows.back().begin() + 2,
+                         GroupWords(report, criterion.metric, criterion.part, unit));
   }
-  return Table({"Criterion", "Value", "Limit", "Result", "Source of the limit"}, rows);
+  return Table(Head(report, {"Criterion", "Value", "Limit", "Result", "Source of the limit"}),
+               rows);
 }
 
-std::string MetricsOf(const AttemptRecord& attempt) {
+std::string MetricsOf(const AttemptReport& report) {
   std::vector<Cells> rows;
-  for (const MetricRow& metric : attempt.metrics)
+  for (const MetricRow& metric : report.attempt.metrics) {
     rows.push_back({MetricWords(metric.name, metric.part), ValueWords(metric.value, metric.unit),
                     metric.why_none});
-  return Table({"Metric", "Value", "Reason for a missing value"}, rows);
+    if (!report.group.empty())
+      rows.back().insert(rows.back().begin() + 2,
+                         GroupWords(report, metric.name, metric.part, metric.unit));
+  }
+  return Table(Head(report, {"Metric", "Value", "Reason for a missing value"}), rows);
 }
 
 std::string EventsOf(const AttemptRecord& attempt) {
@@ -104,87 +132,49 @@ std::string EventsOf(const AttemptRecord& attempt) {
 
 }  // namespace
 
+const GroupStanding* StandingIn(const AttemptReport& report, const std::string& metric,
+                                const std::string& part) {
+  for (const GroupStanding& standing : report.standings)
+    if (standing.metric == metric && standing.part == part) return &standing;
+  return nullptr;
+}
+
 std::string AttemptPage(const AttemptReport& report) {
   const AttemptRecord& attempt = report.attempt;
   std::string html = fmt::format(
       "{}<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{} – {}</title>\n"
       "<style>\n{}</style></head>\n<body>\n<h1>Report of an attempt</h1>\n",
-      kAttemptPageHead, XmlText(report.exercise.id), XmlText(report.trainee), kStyle);
+      kAttemptPageHead, XmlText(HasExercise(report) ? report.exercise.id : "Recorded hands"),
+      XmlText(report.trainee.empty() ? attempt.scene : report.trainee), kStyle);
   html += HeadOf(report);
-  html += fmt::format("<p class=\"outcome\">{}</p>\n", XmlText(OutcomeWords(attempt)));
-  html += Heading("Criteria") + CriteriaOf(attempt);
+  if (HasExercise(report)) {
+    html += fmt::format("<p class=\"outcome\">{}</p>\n", XmlText(OutcomeWords(attempt)));
+    html += Heading("Criteria") + CriteriaOf(report);
+  }
   if (const std::string steps = StepsSvg(report); !steps.empty()) html += Heading("Steps") + steps;
   if (!report.frames.empty()) {
     html += Heading("Force") + ForceSvg(report);
     if (!report.targets.empty()) html += Heading("Centring") + CentringSvg(report);
     html += Heading("Paths") + PathSvg(report, false) + PathSvg(report, true);
   }
-  if (!attempt.metrics.empty()) html += Heading("Metrics") + MetricsOf(attempt);
+  if (!attempt.metrics.empty()) html += Heading("Metrics") + MetricsOf(report);
   if (!attempt.events.empty()) html += Heading("Events") + EventsOf(attempt);
-  html += fmt::format(
-      "<p class=\"small\">{}. Metrics of version {}. Attempt {}. Exercise {}. Forces are those of "
-      "the simulation. The limits come from the sources that stand beside them; the numbers do not "
-      "show that somebody can operate.</p>\n",
-      XmlText(report.program), attempt.metrics_version, XmlText(attempt.id),
-      XmlText(report.exercise.hash));
+  html += fmt::format("<p class=\"small\">{}. Metrics of version {}.", XmlText(report.program),
+                      attempt.metrics_version);
+  if (!attempt.id.empty()) html += fmt::format(" Attempt {}.", XmlText(attempt.id));
+  if (HasExercise(report)) html += fmt::format(" Exercise {}.", XmlText(report.exercise.hash));
+  if (!report.group.empty())
+    html +=
+        " z counts standard deviations from the mean of the group, of logarithms for times, paths "
+        "and areas; positive is better.";
+  html +=
+      " Forces are those of the simulation. The limits come from the sources that stand beside "
+      "them; the numbers do not show that somebody can operate.</p>\n";
   return html + "</body></html>\n";
 }
 
-std::string AttemptJson(const AttemptReport& report) {
-  const AttemptRecord& attempt = report.attempt;
-  using Json = nlohmann::ordered_json;
-  const auto number = [](const std::optional<double>& value) {
-    return value ? Json(*value) : Json();
-  };
-  Json json;
-  json["schema"] = "arthroscene.assessment/1";
-  json["attempt"] = attempt.id;
-  json["trainee"] = report.trainee;
-  json["exercise"] = {{"id", report.exercise.id},
-                      {"version", report.exercise.version},
-                      {"hash", report.exercise.hash},
-                      {"title", report.exercise.title}};
-  json["scene"] = attempt.scene;
-  json["mode"] = AttemptModes().words[static_cast<std::size_t>(attempt.mode)].second;
-  json["started"] = attempt.started;
-  json["outcome"] = simulation::ToString(attempt.outcome);
-  json["reason"] = attempt.reason;
-  json["duration"] = number(attempt.duration);
-  json["frames"] = report.frames.size();
-  json["metrics_version"] = attempt.metrics_version;
-  for (const char* list : {"criteria", "steps", "metrics", "events"}) json[list] = Json::array();
-  for (const CriterionRow& row : attempt.criteria)
-    json["criteria"].push_back({{"metric", row.metric},
-                                {"part", row.part},
-                                {"min", number(row.low)},
-                                {"max", number(row.high)},
-                                {"value", number(row.value)},
-                                {"unit", UnitOf(attempt, row.metric, row.part)},
-                                {"met", row.passed},
-                                {"source", row.source}});
-  for (const StepRow& row : attempt.steps)
-    json["steps"].push_back({{"step", row.step},
-                             {"began", row.began},
-                             {"ended", number(row.ended)},
-                             {"outcome", row.outcome}});
-  for (const MetricRow& row : attempt.metrics) {
-    Json& entry = json["metrics"].emplace_back();
-    entry = {
-        {"metric", row.name}, {"part", row.part}, {"value", number(row.value)}, {"unit", row.unit}};
-    if (!row.value) entry["why_none"] = row.why_none;
-  }
-  for (const EventRow& row : attempt.events)
-    json["events"].push_back({{"t", row.t},
-                              {"kind", row.kind},
-                              {"step", row.step},
-                              {"target", row.target},
-                              {"value", number(row.value)},
-                              {"note", row.note}});
-  return json.dump(2) + "\n";
-}
-
 std::string MetricTable(const AttemptReport& report) {
-  std::string text = fmt::format("{}unit,min,max,met,source,why_none\n", kMetricTableHead);
+  std::string text = fmt::format("{}unit,better,min,max,met,source,z,why_none\n", kMetricTableHead);
   for (const MetricRow& row : report.attempt.metrics) {
     const auto& criteria = report.attempt.criteria;
     const auto own = std::find_if(criteria.begin(), criteria.end(), [&](const auto& criterion) {
@@ -194,11 +184,13 @@ std::string MetricTable(const AttemptReport& report) {
       return value ? fmt::format("{}", *value) : std::string();
     };
     const bool has_criterion = own != criteria.end();
+    const GroupStanding* standing = StandingIn(report, row.name, row.part);
     text += fmt::format(
-        "{},{},{},{},{},{},{},{},{}\n", CsvField(row.name), CsvField(row.part), number(row.value),
-        CsvField(row.unit), has_criterion ? number(own->low) : "",
-        has_criterion ? number(own->high) : "", has_criterion ? (own->passed ? "1" : "0") : "",
-        has_criterion ? CsvField(own->source) : "", CsvField(row.why_none));
+        "{},{},{},{},{},{},{},{},{},{},{}\n", CsvField(row.name), CsvField(row.part),
+        number(row.value), CsvField(row.unit), BetterWord(row.name),
+        has_criterion ? number(own->low) : "", has_criterion ? number(own->high) : "",
+        has_criterion ? (own->passed ? "1" : "0") : "", has_criterion ? CsvField(own->source) : "",
+        standing != nullptr ? number(standing->z) : "", CsvField(row.why_none));
   }
   return text;
 }

@@ -1,8 +1,9 @@
-// Report of one attempt: a page (HTML) that needs no other file and no script and prints on A4, the
-// same values as JSON (arthroscene.assessment/1) and as a table (CSV). It states what was measured
+// Report of one attempt: a page (HTML) that needs no other file and no script and prints on A4, and
+// the same values as a table (CSV); as JSON in assessment_file.h. It states what was measured
 // against which limit. It has no total, no stars and no percentage.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,18 @@
 
 namespace arthro::app {
 
+// A metric of the attempt beside the values of a reference group, in SI units.
+struct GroupStanding {
+  std::string metric, part;
+  int n = 0;
+  std::optional<double> median, q1, q3;
+  std::optional<double> z;  // positive is better; none for fewer than five members
+};
+
 struct AttemptReport {
   AttemptRecord attempt;
-  ExerciseRow exercise;
+  ExerciseRow exercise;  // id empty: hands were measured without an exercise
+  bool is_mode_known = true;
   std::string goal;          // brief of the exercise; may be empty
   std::string trainee;       // code
   std::string station, rig;  // from the session
@@ -21,14 +31,20 @@ struct AttemptReport {
   // Frames of the attempt, 10 ms apart; empty where its file is not at hand.
   std::vector<simulation::AttemptFrame> frames;
   std::vector<std::string> targets;  // ids, in the order of the exercise
+  std::string group;                 // name of the reference group; empty: none
+  std::vector<GroupStanding> standings;
 };
+
+inline bool HasExercise(const AttemptReport& report) { return !report.exercise.id.empty(); }
+// Null where the group has no such value.
+const GroupStanding* StandingIn(const AttemptReport& report, const std::string& metric,
+                                const std::string& part);
 
 // First characters of the page: a job replaces no other page.
 inline constexpr const char* kAttemptPageHead =
     "<!doctype html>\n<!-- arthroscene report of an attempt -->\n";
 std::string AttemptPage(const AttemptReport& report);
 
-std::string AttemptJson(const AttemptReport& report);
 inline constexpr const char* kMetricTableHead = "metric,part,value,";
 std::string MetricTable(const AttemptReport& report);
 

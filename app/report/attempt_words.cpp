@@ -6,23 +6,10 @@
 #include <fmt/format.h>
 
 #include "simulation/core/units.h"
+#include "simulation/training/metrics/metrics.h"
 
 namespace arthro::app {
 namespace {
-
-struct ShownUnit {
-  double factor;
-  const char* words;
-};
-
-// Files hold SI units; a person reads these.
-ShownUnit ShownUnitOf(const std::string& unit) {
-  if (unit == "m") return {1e3, "mm"};
-  if (unit == "m²") return {1e6, "mm²"};
-  if (unit == "m³") return {1e9, "mm³"};
-  if (unit == "rad") return {1 / kRadianPerDegree, "°"};
-  return {1, unit.c_str()};
-}
 
 // Rounding of sums leaves values below this, which say nothing about an attempt, in shown units.
 constexpr double kLeastShown = 5e-5;
@@ -33,11 +20,19 @@ std::string Digits(double value) {
   return std::abs(value) >= 1000 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
 
-std::string WithUnit(const std::string& digits, const char* unit) {
-  return *unit == 0 ? digits : fmt::format("{} {}", digits, unit);
+std::string WithUnit(const std::string& digits, const std::string& unit) {
+  return unit.empty() ? digits : fmt::format("{} {}", digits, unit);
 }
 
 }  // namespace
+
+ShownUnit ShownUnitOf(const std::string& unit) {
+  if (unit == "m") return {1e3, "mm"};
+  if (unit == "m2") return {1e6, "mm²"};
+  if (unit == "m3") return {1e9, "mm³"};
+  if (unit == "rad") return {1 / kRadianPerDegree, "°"};
+  return {1, unit};
+}
 
 std::string ValueWords(const std::optional<double>& value, const std::string& unit) {
   if (!value) return "not measured";
@@ -75,12 +70,18 @@ std::string OutcomeWords(const AttemptRecord& attempt) {
     case AttemptOutcome::kFailed:
       return with("Not passed");
     case AttemptOutcome::kStopped:
-      return with("Stopped before its end");
+      return with("Stopped");
     case AttemptOutcome::kVoid:
       return with("Void: it does not count");
     case AttemptOutcome::kRunning:
       return with("Running");
   }
+  return "";
+}
+
+const char* BetterWord(const std::string& metric) {
+  for (const simulation::Metric& known : simulation::EveryMetric())
+    if (known.id == metric) return known.is_more_better ? "more" : "less";
   return "";
 }
 

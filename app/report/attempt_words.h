@@ -8,6 +8,13 @@
 
 namespace arthro::app {
 
+// Files hold SI units; a person reads these.
+struct ShownUnit {
+  double factor;  // of a value in SI
+  std::string words;
+};
+ShownUnit ShownUnitOf(const std::string& unit);
+
 // A value with its unit, such as "252 mm" for 0.252 m; "not measured" for nothing.
 std::string ValueWords(const std::optional<double>& value, const std::string& unit);
 
@@ -20,6 +27,9 @@ std::string UnitOf(const AttemptRecord& attempt, const std::string& metric,
 
 // "Passed", "Not passed", "Stopped", "Void", each with a sentence that says why.
 std::string OutcomeWords(const AttemptRecord& attempt);
+
+// "more" or "less": which value of a metric is better; empty for a metric of another program.
+const char* BetterWord(const std::string& metric);
 
 // A metric's id without underscores: "peak force".
 std::string MetricWords(const std::string& metric, const std::string& part);

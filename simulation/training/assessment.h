@@ -1,4 +1,5 @@
-// The metrics of a recorded attempt as a table and as a report [method.md, Metrics].
+// The metrics of recorded hands, without an exercise [method.md, Metrics]. Reports are written by
+// app/report.
 #pragma once
 
 #include <span>
@@ -11,8 +12,8 @@
 namespace arthro::simulation {
 
 struct Assessment {
-  double duration = 0;                  // s of the recording
-  std::size_t frames = 0, unknown = 0;  // frames; those in which neither hand is known
+  double duration = 0;  // s of the recording
+  std::vector<AttemptFrame> frames;
   std::vector<MetricValue> values;
 };
 
@@ -26,11 +27,5 @@ Assessment Assess(const LoadedScene& loaded, const Recording& recording,
 // Measures frames of an attempt, of which nothing is simulated again.
 Assessment AssessFrames(std::span<const AttemptFrame> frames, const Scene& scene,
                         const MetricLimits& limits = {});
-
-// Columns metric, part, value, unit, better (more or less) and why_none.
-std::string AssessmentTable(const Assessment& assessment);
-
-// JSON of the schema arthroscene.assessment/1.
-std::string AssessmentReport(const Assessment& assessment, const std::string& scene_title);
 
 }  // namespace arthro::simulation

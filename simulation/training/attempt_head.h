@@ -13,7 +13,8 @@
 namespace arthro::simulation {
 
 struct AttemptHead {
-  std::string attempt, exercise, exercise_hash, scene, started, program;
+  std::string attempt, exercise, exercise_hash, scene, scene_fingerprint, mode, rig, started,
+      program;
   std::vector<std::string> surfaces;
   template <class V>
   void Visit(V&& v) {
@@ -21,6 +22,10 @@ struct AttemptHead {
     v("exercise", exercise, Any{}, "", "Id of the exercise in its scene.");
     v("exercise_hash", exercise_hash, Any{}, "", "SHA-256 of the exercise in canonical JSON.");
     v("scene", scene, Any{}, "", "Title of the scene.");
+    v("scene_fingerprint", scene_fingerprint, Any{}, "",
+      "Fingerprint of the geometry of the scene (scene_of_attempt.h).");
+    v("mode", mode, Any{}, "", "practice, test or robot.");
+    v("rig", rig, Any{}, "", "Devices that held the hands.");
     v("started", started, Any{}, "", "Time in UTC.");
     v("program", program, Any{}, "", "Version of the program.");
     v("surfaces", surfaces, TextList{}, "",

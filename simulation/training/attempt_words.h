@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string_view>
 
 #include "simulation/training/attempt_result.h"
 
@@ -25,6 +27,20 @@ inline const char* ToString(EventKind kind) {
       "reset",         "pause",       "resume",     "look_down", "note",        "fault"};
   static_assert(kWords.size() == static_cast<std::size_t>(EventKind::kFault) + 1);
   return kWords[static_cast<std::size_t>(kind)];
+}
+
+// The kind that has this word; nothing where none has.
+template <class Kind, Kind last>
+std::optional<Kind> KindOfWord(std::string_view word) {
+  for (int i = 0; i <= static_cast<int>(last); ++i)
+    if (word == ToString(static_cast<Kind>(i))) return static_cast<Kind>(i);
+  return std::nullopt;
+}
+inline std::optional<StepOutcome> StepOutcomeFromString(std::string_view word) {
+  return KindOfWord<StepOutcome, StepOutcome::kFailed>(word);
+}
+inline std::optional<EventKind> EventKindFromString(std::string_view word) {
+  return KindOfWord<EventKind, EventKind::kFault>(word);
 }
 
 }  // namespace arthro::simulation

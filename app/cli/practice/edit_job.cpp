@@ -11,10 +11,12 @@
 #include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
+#include "app/cli/practice/lesson_flags.h"
 #include "app/cli/practice/window_flags.h"
 #include "app/editor/editor.h"
 #include "app/recording/live_film.h"
 #include "app/recording/unfinished_film.h"
+#include "simulation/core/error.h"
 
 namespace arthro::app {
 namespace {
@@ -112,6 +114,11 @@ void Open(EditorOptions options, const HandFlags& flags, const JobFiles& files,
     std::fprintf(stderr, "arthroscene: %s\n", sentence.c_str());
     options.notice = sentence;
   }
+  CheckLesson(options);
+  if (options.lesson && !screens.film.empty())
+    throw Error(Code::kBadArgument,
+                "--record films a practice from its beginning, and an exercise begins later; press "
+                "F2 in the attempt");
   options.frame_shape = FrameShapeOf(screens.layout);
   options.head = simulation::CameraHeadFromString(screens.head);
   if (!screens.film.empty()) {
@@ -154,7 +161,7 @@ void AddEditJob(CLI::App& program) {
 void AddPractiseJob(CLI::App& program) {
   const auto options = std::make_shared<EditorOptions>();
   options->practice = true;
-  CLI::App* job = program.add_subcommand("practise", "Practise in a scene.");
+  CLI::App* job = program.add_subcommand("practise", "Practise in a scene, or an exercise of it.");
   job->alias("practice");
   const auto files = JobFiles::Of(*job);
   files
@@ -167,6 +174,7 @@ void AddPractiseJob(CLI::App& program) {
   AddHandFlags(*job, *hands, *files);
   const auto screens = std::make_shared<ScreenFlags>();
   AddScreenFlags(*job, *screens, *options, *files);
+  AddLessonFlags(*job, *options);
   AddRecordsFlag(*job, *options);
   AddLookFlags(*job, *options);
   AddWindowFlags(*job, *options);

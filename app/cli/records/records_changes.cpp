@@ -61,11 +61,28 @@ void Export(const ExportJob& job) {
 struct ImportJob {
   std::shared_ptr<RecordsPlace> place;
   fs::path file;
+  bool joins_codes = false;
 };
+
+// One code of two trainees who were added apart may stand for two persons.
+void RefuseTwoTrainees(Records& records, const RecordsBundle& bundle, const fs::path& file) {
+  std::vector<std::string> codes;
+  for (const TraineeRow& trainee : bundle.trainees)
+    if (KnowsTrainee(records, trainee.code) && FindTrainee(records, trainee.code).id != trainee.id)
+      codes.push_back(trainee.code);
+  if (codes.empty()) return;
+  throw Error(Code::kBadArgument,
+              fmt::format("{} {} here and in this file for trainees who were added apart; give "
+                          "--same-trainees where they are the same persons, or rename one side "
+                          "with `arthroscene records trainee rename`",
+                          fmt::join(codes, ", "), codes.size() == 1 ? "stands" : "stand"),
+              file);
+}
 
 void ImportFile(const ImportJob& job) {
   const RecordsBundle bundle = RecordsFromText(ReadWholeFile(job.file), job.file);
   Records records(job.place->Connection());
+  if (!job.joins_codes) RefuseTwoTrainees(records, bundle, job.file);
   const Imported imported = Import(records, bundle);
   fmt::print("{} attempts are new, {} were there already\n", imported.fresh, imported.known);
 }
@@ -192,6 +209,9 @@ void AddImportRecords(CLI::App& records) {
   own->place = AddPlace(*job);
   const auto files = JobFiles::Of(*job, false);
   files->Input(job->add_option("FILE", own->file, "Export as JSON."))->required();
+  job->add_flag("--same-trainees", own->joins_codes,
+                "A code stands for the same person here and in the file, though it was added on "
+                "both sides.");
   files->Run([own] { ImportFile(*own); });
 }
 

@@ -19,7 +19,8 @@
 #include "app/records/exchange/rating_form.h"
 #include "app/records/people/reference_groups.h"
 #include "app/records/people/trainees.h"
-#include "app/report/attempt_report.h"
+#include "app/report/assessment_file.h"
+#include "app/report/make_report.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 
@@ -67,8 +68,7 @@ void ListAttempts(Records& records, const std::string& trainee) {
   FindTrainee(records, trainee);
   fmt::print("{:36}  {:24}  {:8}  {:8}  {:>9}\n", "attempt", "begin", "mode", "outcome", "time, s");
   for (const AttemptRecord& own : AttemptsOf(records, trainee))
-    fmt::print("{:36}  {:24}  {:8}  {:8}  {:>9}\n", own.id, own.started,
-               AttemptModes().words[static_cast<std::size_t>(own.mode)].second,
+    fmt::print("{:36}  {:24}  {:8}  {:8}  {:>9}\n", own.id, own.started, ToString(own.mode),
                simulation::ToString(own.outcome),
                own.duration ? fmt::format("{:.2f}", *own.duration) : "");
 }
@@ -107,20 +107,16 @@ void List(const ListJob& job) {
 
 struct ShowJob {
   std::shared_ptr<RecordsPlace> place;
-  std::string attempt;
+  std::string attempt, group;
   fs::path report, json, csv;
 };
 
 void Show(const ShowJob& job) {
   Records records(job.place->Connection());
-  const RecordsBundle bundle = ReadBundleOf(records, job.attempt);
-  AttemptReport report;
-  report.attempt = bundle.attempts.at(0);
-  report.exercise = bundle.exercises.at(0);
-  report.trainee = bundle.trainees.at(0).code;
-  report.station = bundle.sessions.at(0).station;
-  report.rig = bundle.sessions.at(0).rig;
-  report.program = bundle.sessions.at(0).program;
+  std::string notice;
+  AttemptReport report = ReportFromRecords(records, job.attempt, notice);
+  if (!notice.empty()) fmt::print(stderr, "note: {}\n", PrintableLine(notice));
+  if (!job.group.empty()) SetGroup(report, records, job.group);
   if (!job.report.empty()) WriteAtomically(job.report, AttemptPage(report), Access::kPrivate);
   if (!job.json.empty()) WriteAtomically(job.json, AttemptJson(report), Access::kPrivate);
   if (!job.csv.empty()) WriteAtomically(job.csv, MetricTable(report), Access::kPrivate);
@@ -166,14 +162,13 @@ void Reference(const ReferenceJob& job) {
 
 struct CheckJob {
   std::shared_ptr<RecordsPlace> place;
-  bool prints_schema = false, prints_form_schema = false;
+  bool prints_schema = false, prints_form_schema = false, prints_assessment_schema = false;
 };
 
 void Check(const CheckJob& job) {
-  if (job.prints_schema || job.prints_form_schema) {
-    WriteAtomically("-", job.prints_schema ? RecordsSchema() : FormSchema());
-    return;
-  }
+  if (job.prints_schema) return WriteAtomically("-", RecordsSchema());
+  if (job.prints_form_schema) return WriteAtomically("-", FormSchema());
+  if (job.prints_assessment_schema) return WriteAtomically("-", AssessmentSchema());
   Records records(job.place->Connection());
   const RecordsCheck check = CheckRecords(records);
   fmt::print("{}: schema {}, {} trainees, {} attempts, {} of them running, {} in the outbox\n",
@@ -215,6 +210,9 @@ void AddShowRecords(CLI::App& records) {
   job->add_option("ATTEMPT", own->attempt, "Id of the attempt, as list shows it.")
       ->required()
       ->type_name("ID");
+  job->add_option("--reference", own->group,
+                  "Reference group of the exercise whose values the report shows.")
+      ->type_name("GROUP");
   const auto files = JobFiles::Of(*job);
   files->Output(job->add_option("--report", own->report, "Page to write (HTML), for A4."),
                 {"a page", FileForm::kTable, kAttemptPageHead});
@@ -253,6 +251,8 @@ void AddCheckRecords(CLI::App& records) {
   job->add_flag("--schema", own->prints_schema, "Print the JSON Schema of exports instead.");
   job->add_flag("--form-schema", own->prints_form_schema,
                 "Print the JSON Schema of forms instead.");
+  job->add_flag("--assessment-schema", own->prints_assessment_schema,
+                "Print the JSON Schema of reports of attempts instead.");
   job->callback([own] { Check(*own); });
 }
 

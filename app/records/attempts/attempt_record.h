@@ -26,6 +26,9 @@ inline Choices<AttemptMode> AttemptModes() {
            {AttemptMode::kTest, "test"},
            {AttemptMode::kRobot, "robot"}}};
 }
+inline std::string ToString(AttemptMode mode) {
+  return AttemptModes().words[static_cast<std::size_t>(mode)].second;
+}
 inline Choices<AttemptOutcome> AttemptOutcomes() {
   Choices<AttemptOutcome> choices;
   for (const auto outcome :

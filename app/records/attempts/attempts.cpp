@@ -20,6 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRunning = "outcome = 'running'";
+// Behind the source of a limit whose group is still too small.
+constexpr std::string_view kStartValue = " (start value)";
 
 // Marks lie beside the logs, one per attempt.
 fs::path MarkOf(const fs::path& folder, const std::string& attempt) {
@@ -102,11 +104,36 @@ void SetResult(AttemptRecord& record, const simulation::AttemptResult& result) {
   for (const simulation::CriterionResult& criterion : result.criteria)
     record.criteria.push_back(
         {criterion.metric, criterion.part,
-         criterion.is_start_value ? criterion.source + " (start value)" : criterion.source,
+         criterion.is_start_value ? criterion.source + std::string(kStartValue) : criterion.source,
          criterion.low, criterion.high, criterion.value, criterion.is_met});
   for (const simulation::AttemptEvent& event : result.events)
     record.events.push_back({event.t, simulation::ToString(event.kind), event.step, event.target,
                              event.note, event.value});
+}
+
+simulation::AttemptResult ResultOf(const AttemptRecord& record) {
+  simulation::AttemptResult result;
+  result.outcome = record.outcome;
+  result.reason = record.reason;
+  result.duration = record.duration.value_or(0);
+  for (const StepRow& row : record.steps)
+    if (const auto outcome = simulation::StepOutcomeFromString(row.outcome))
+      result.steps.push_back({row.step, *outcome, row.began, row.ended});
+  for (const CriterionRow& row : record.criteria) {
+    const bool is_start = row.source.ends_with(kStartValue);
+    result.criteria.push_back(
+        {row.metric, row.part, row.low, row.high, row.value, row.passed,
+         row.source.substr(0, row.source.size() - (is_start ? kStartValue.size() : 0)), is_start});
+  }
+  for (const MetricRow& row : record.metrics)
+    for (const simulation::Metric& metric : simulation::EveryMetric())
+      if (metric.id == row.name)
+        result.metrics.push_back({&metric, row.part, row.value, row.why_none});
+  for (const EventRow& row : record.events)
+    if (const auto kind = simulation::EventKindFromString(row.kind))
+      result.events.push_back(
+          {row.t, *kind, row.step, row.target, row.value.value_or(0), row.note});
+  return result;
 }
 
 SessionRow StartSession(Records& records, const std::string& trainee_code,

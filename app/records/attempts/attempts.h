@@ -13,8 +13,10 @@
 
 namespace arthro::app {
 
-// Results as rows.
+// Results as rows, and rows as a result. Metrics and kinds of events that this program does not
+// know are left out of a result.
 void SetResult(AttemptRecord& record, const simulation::AttemptResult& result);
+simulation::AttemptResult ResultOf(const AttemptRecord& record);
 
 // A session of a trainee at this station. The trainee must be known (people/trainees.h).
 SessionRow StartSession(Records& records, const std::string& trainee_code,

@@ -55,25 +55,38 @@ std::vector<Standing> Ask(Records& records, const std::string& inner, const std:
   return standings;
 }
 
+void SetTestOutcomes(Records& records, const std::string& where, const Row& values,
+                     std::vector<Standing>& standings) {
+  std::map<std::pair<std::string, std::string>, std::string> outcomes;  // trainee, exercise
+  for (const Row& row : records.database().Ask(
+           fmt::format(R"(SELECT trainees.code, attempts.exercise, attempts.outcome FROM attempts
+    JOIN trainees ON trainees.id = attempts.trainee
+    LEFT JOIN cohorts ON cohorts.id = trainees.cohort
+    WHERE attempts.mode = 'test' AND attempts.outcome IN ('passed', 'failed') {}
+    ORDER BY attempts.started, attempts.id)",
+                       where),
+           values))
+    outcomes[{TextOf(row[0]), TextOf(row[1])}] += TextOf(row[2]) == "passed" ? 'P' : 'F';
+  for (Standing& standing : standings)
+    standing.test_outcomes = outcomes[{standing.trainee, standing.exercise}];
+}
+
 }  // namespace
 
 std::vector<Standing> StandingsOf(Records& records, const std::string& trainee_code) {
   auto standings = Ask(records, "AND trainee = (SELECT id FROM trainees WHERE code = :code)", "",
                        {trainee_code});
-  std::map<std::string, std::string> outcomes;  // exercise -> outcomes
-  for (const Row& row : records.database().Ask(
-           R"(SELECT exercise, outcome FROM attempts WHERE trainee = (SELECT id FROM trainees WHERE
-    code = :code) AND mode = 'test' AND outcome IN ('passed', 'failed')
-    ORDER BY started, id)",
-           {trainee_code}))
-    outcomes[TextOf(row[0])] += TextOf(row[1]) == "passed" ? 'P' : 'F';
-  for (Standing& standing : standings) standing.test_outcomes = outcomes[standing.exercise];
+  SetTestOutcomes(records, "AND trainees.code = :code", {trainee_code}, standings);
   return standings;
 }
 
 std::vector<Standing> CohortStandings(Records& records, const std::string& cohort_name) {
-  if (cohort_name.empty()) return Ask(records, "", "", {});
-  return Ask(records, "", "WHERE cohorts.name = :cohort", {cohort_name});
+  const bool is_one = !cohort_name.empty();
+  const std::string where = is_one ? "cohorts.name = :cohort" : "";
+  const Row values = is_one ? Row{cohort_name} : Row{};
+  auto standings = Ask(records, "", is_one ? "WHERE " + where : "", values);
+  SetTestOutcomes(records, is_one ? "AND " + where : "", values, standings);
+  return standings;
 }
 
 }  // namespace arthro::app

@@ -22,7 +22,7 @@ struct Standing {
 
 // One row per exercise that the trainee has tried. Robots do not count.
 std::vector<Standing> StandingsOf(Records& records, const std::string& trainee_code);
-// One row per trainee and exercise, without test_outcomes; an empty name means every cohort.
+// One row per trainee and exercise; an empty name means every cohort.
 std::vector<Standing> CohortStandings(Records& records, const std::string& cohort_name = "");
 
 }  // namespace arthro::app

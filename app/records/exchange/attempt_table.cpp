@@ -52,8 +52,7 @@ std::string AttemptTable(const RecordsBundle& bundle) {
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", attempt.id,
                         CsvField(trainee.code), CsvField(cohort), CsvField(trainee.hand),
                         trainee.experience < 0 ? "" : std::to_string(trainee.experience),
-                        CsvField(exercise.id), exercise.version,
-                        AttemptModes().words[static_cast<std::size_t>(attempt.mode)].second,
+                        CsvField(exercise.id), exercise.version, ToString(attempt.mode),
                         attempt.started, CsvField(session.station), CsvField(session.rig),
                         NumberText(attempt.duration), simulation::ToString(attempt.outcome),
                         CsvField(attempt.reason), attempt.metrics_version);

@@ -84,11 +84,10 @@ XapiStatements XapiOf(const RecordsBundle& bundle, const std::string& home) {
     own["result"]["duration"] = fmt::format("PT{:.2f}S", duration);
     own["result"]["extensions"][base + "/metrics"] = metrics;
     own["context"]["platform"] = "Arthroscene";
-    own["context"]["extensions"][base + "/attempt"] = {
-        {"mode", AttemptModes().words[static_cast<std::size_t>(attempt.mode)].second},
-        {"scene", attempt.scene},
-        {"metrics_version", attempt.metrics_version},
-        {"exercise_hash", attempt.exercise}};
+    own["context"]["extensions"][base + "/attempt"] = {{"mode", ToString(attempt.mode)},
+                                                       {"scene", attempt.scene},
+                                                       {"metrics_version", attempt.metrics_version},
+                                                       {"exercise_hash", attempt.exercise}};
     own["timestamp"] = UtcText(ended);
   }
   statements.text = list.dump(2) + "\n";

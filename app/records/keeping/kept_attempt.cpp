@@ -70,8 +70,16 @@ void KeptAttempt::StartApart(const std::optional<SessionRow>& session, const Att
 }
 
 void KeptAttempt::StartLog(const AttemptPlan& plan) {
-  simulation::AttemptHead head{record().id,      plan.exercise.id, plan.exercise.hash, plan.scene,
-                               record().started, plan.program,     plan.surfaces};
+  simulation::AttemptHead head{.attempt = record().id,
+                               .exercise = plan.exercise.id,
+                               .exercise_hash = plan.exercise.hash,
+                               .scene = plan.scene,
+                               .scene_fingerprint = plan.scene_fingerprint,
+                               .mode = ToString(plan.mode),
+                               .rig = plan.rig,
+                               .started = record().started,
+                               .program = plan.program,
+                               .surfaces = plan.surfaces};
   // Twice as often as a program that is killed may lose.
   constexpr double kWriteEvery = 0.1;  // s
   try {

@@ -21,6 +21,7 @@ struct AttemptPlan {
   std::string trainee;  // code
   ExerciseRow exercise;
   std::string scene;                  // title
+  std::string scene_fingerprint;      // simulation/training/scene_of_attempt.h
   std::vector<std::string> surfaces;  // names of the backdrop and of each tissue
   AttemptMode mode = AttemptMode::kPractice;
   std::string program, rig;

@@ -87,6 +87,17 @@ Counted AttemptsThatCount(Records& records, const std::string& exercise,
   return counted;
 }
 
+MetricValues ValuesOf(Database& database, const Counted& counted) {
+  MetricValues values;
+  for (const std::string& attempt : counted.attempts)
+    for (const Row& row : database.Ask(
+             "SELECT name, part, value FROM metrics WHERE attempt = :attempt", {attempt})) {
+      auto& list = values[{TextOf(row[0]), TextOf(row[1])}];
+      if (!std::holds_alternative<std::monostate>(row[2])) list.push_back(NumberOf(row[2]));
+    }
+  return values;
+}
+
 void Remove(Records& records, const std::string& id) {
   records.database().Do("DELETE FROM reference_values WHERE grp = :id", {{id}});
   records.database().Do("DELETE FROM reference_groups WHERE id = :id", {{id}});
@@ -102,13 +113,7 @@ std::optional<ReferenceGroup> Compute(Records& records, const std::string& name,
     Remove(records, TextOf(row[0]));
   const Counted counted = AttemptsThatCount(records, exercise, rule);
   if (counted.attempts.empty()) return std::nullopt;
-  std::map<std::pair<std::string, std::string>, std::vector<double>> values;
-  for (const std::string& attempt : counted.attempts)
-    for (const Row& row : database.Ask(
-             "SELECT name, part, value FROM metrics WHERE attempt = :attempt", {attempt})) {
-      auto& list = values[{TextOf(row[0]), TextOf(row[1])}];
-      if (!std::holds_alternative<std::monostate>(row[2])) list.push_back(NumberOf(row[2]));
-    }
+  MetricValues values = ValuesOf(database, counted);
   ReferenceGroup group{records.NewId(),         name, exercise, RuleText(rule), records.Now(),
                        counted.metrics_version, {}};
   for (auto& [key, list] : values)
@@ -142,6 +147,11 @@ std::vector<ReferenceGroup> ReferenceGroupsOf(Records& records) {
     group.values = Select<ReferenceValueRow>(records.database(), "reference_values",
                                              "WHERE grp = :id ORDER BY metric, part", {group.id});
   return groups;
+}
+
+MetricValues MemberValues(Records& records, const ReferenceGroup& group) {
+  return ValuesOf(records.database(),
+                  AttemptsThatCount(records, group.exercise, RuleOf(group.rule)));
 }
 
 std::vector<std::string> UpdateGroupsWithout(Records& records, const std::string& code) {

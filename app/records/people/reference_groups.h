@@ -2,8 +2,10 @@
 // quartiles of each metric over the attempts that a rule names. SI units.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/records/store/records.h"
@@ -59,6 +61,9 @@ struct ReferenceRule {
 ReferenceGroup MakeReferenceGroup(Records& records, const std::string& name,
                                   const std::string& exercise_hash, const ReferenceRule& rule);
 std::vector<ReferenceGroup> ReferenceGroupsOf(Records& records);
+// Values of the attempts that count for the group now, by metric and part.
+using MetricValues = std::map<std::pair<std::string, std::string>, std::vector<double>>;
+MetricValues MemberValues(Records& records, const ReferenceGroup& group);
 
 // Within a transaction: takes a trainee out of every group's rule and computes these again. A group
 // that is empty then is removed. Returns their names.

@@ -130,6 +130,12 @@ void OpenGate(Records& records, const std::string& trainee_code, const std::stri
   });
 }
 
+void OpenGate(Records& records, const std::string& trainee_code, const ExerciseRow& exercise,
+              const std::string& who, const std::string& reason) {
+  records.database().Write([&] { Insert(records.database(), "exercises", std::vector{exercise}); });
+  OpenGate(records, trainee_code, exercise.hash, who, reason);
+}
+
 std::vector<GateRow> GatesOf(Records& records, const std::string& trainee_code) {
   return Select<GateRow>(records.database(), "gates",
                          "WHERE trainee = (SELECT id FROM trainees WHERE code = :code) "

@@ -38,6 +38,9 @@ struct GateRow {
 };
 void OpenGate(Records& records, const std::string& trainee_code, const std::string& exercise_hash,
               const std::string& who, const std::string& reason);
+// The same for an exercise that nobody may have tried yet.
+void OpenGate(Records& records, const std::string& trainee_code, const ExerciseRow& exercise,
+              const std::string& who, const std::string& reason);
 std::vector<GateRow> GatesOf(Records& records, const std::string& trainee_code);
 
 struct Erased {

@@ -6,6 +6,7 @@
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/keeping/start_board.h"
 #include "app/steps/lessons/running_attempt.h"
+#include "app/steps/lessons/trainee.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/practice/start_practice.h"
 #include "simulation/practice/hands/offered_instruments.h"
@@ -100,7 +101,7 @@ const Exercise* ChosenExercise(const EditorState& state) {
 }
 
 bool MayBeginExercise(const EditorState& state) {
-  return ChosenExercise(state) != nullptr && MayPractise(state);
+  return ChosenExercise(state) != nullptr && MayPractise(state) && WhyShut(state).empty();
 }
 
 void BeginExercise(EditorState& state) {
@@ -118,7 +119,7 @@ void BeginExercise(EditorState& state) {
     step.finished.reset();
     step.page = LessonPage::kAttempt;
     const std::string notice =
-        BeginKeeping(*step.records, exercise, now.document().scene,
+        BeginKeeping(*step.records, exercise, now.document(),
                      step.is_test ? AttemptMode::kTest : AttemptMode::kPractice,
                      RigWords(*now.steps.practice->hands));
     now.message = notice.empty() ? "The attempt runs. Esc ends it." : notice;

@@ -195,13 +195,21 @@ void DebriefSide(Ui& ui, EditorState& state, const Area& area) {
   ImGui::SameLine(0, ui.Px(6));
   CommandButton(ui, state, "attempt-summary", {half, ui.Px(40)});
   Slider(ui, "Speed", step.debrief.speed, 0.25, 4, "%.2f");
+  if (!attempt.notice.empty()) ColouredText(ui, attempt.notice, kWarning);
   Gap(ui);
-  Heading(ui, "Events");
+  const bool rates = ShowsRating(state);
+  Heading(ui, rates ? "Rating" : "Events");
   const float foot = ui.Px(54);
-  ImGui::BeginChild("events", {0, std::max(ui.Px(80), ImGui::GetContentRegionAvail().y - foot)});
-  Events(ui, step, attempt);
+  ImGui::BeginChild(rates ? "rating" : "events",
+                    {0, std::max(ui.Px(80), ImGui::GetContentRegionAvail().y - foot)});
+  if (rates)
+    RatingFields(ui, state);
+  else
+    Events(ui, step, attempt);
   ImGui::EndChild();
-  CommandButton(ui, state, "close-lesson", {-FLT_MIN, ui.Px(44)});
+  CommandButton(ui, state, "rate-attempt", {half, ui.Px(44)});
+  ImGui::SameLine(0, ui.Px(6));
+  CommandButton(ui, state, "close-lesson", {half, ui.Px(44)});
 }
 
 void DebriefPlots(Ui& ui, EditorState& state, const Area& area) {

@@ -4,7 +4,9 @@
 #include "app/state/edits.h"
 #include "app/steps/lessons/attempt.h"
 #include "app/steps/lessons/exercise_edit.h"
+#include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/keeping/start_board.h"
+#include "app/steps/practice/start_practice.h"
 
 namespace arthro::app {
 namespace {
@@ -16,16 +18,25 @@ bool RunsAttempt(const State& state) { return state.steps.lessons->running.has_v
 bool HasResult(const State& state) {
   return !state.practice && state.steps.lessons->finished.has_value();
 }
+bool HasFrames(const State& state) {
+  return HasResult(state) && !state.steps.lessons->finished->frames.empty();
+}
 
 template <ActKind kind>
 void Do(State& state) {
   Act(state, {kind, 0, ""});
 }
 
+bool ShowsLesson(const State& state) {
+  return !state.practice && state.steps.lessons->page != LessonPage::kNone;
+}
+
+// Behind the pages of the practise job there is no editor.
 void Close(State& state) {
-  LessonsStep& step = *state.steps.lessons;
-  step.page = LessonPage::kNone;
-  if (state.practice_only) state.dialogs.push_back(PracticeEndedDialog{0});
+  if (state.practice_only)
+    state.quit = true;
+  else
+    state.steps.lessons->page = LessonPage::kNone;
 }
 
 constexpr Command kCommands[] = {
@@ -35,7 +46,7 @@ constexpr Command kCommands[] = {
      "Lessons",
      {},
      {},
-     MayBeginExercise,
+     [](const State& state) { return ChosenExercise(state) != nullptr && MayPractise(state); },
      [](State& state) { state.steps.lessons->page = LessonPage::kBriefing; }},
     {"trainee-page",
      "Trainee's page",
@@ -43,11 +54,51 @@ constexpr Command kCommands[] = {
      "Lessons",
      {GLFW_KEY_F6, true},
      {},
-     InEditor,
+     [](const State& state) { return InEditor(state) || ShowsLesson(state); },
      [](State& state) {
        state.steps.lessons->start->is_stale = true;
        state.steps.lessons->page = LessonPage::kStart;
      }},
+    {"instructor-page",
+     "Instructor's page",
+     "Show all trainees of the records: attempts, gates, learning curves.",
+     "Lessons",
+     {GLFW_KEY_F7, true},
+     {},
+     [](const State& state) { return InEditor(state) || ShowsLesson(state); },
+     ShowInstructorPage},
+    {"open-gate",
+     "Open the gate",
+     "Open the chosen exercise for the chosen trainee; the audit keeps by whom and why.",
+     "Lessons",
+     {},
+     {},
+     MayOpenGate,
+     OpenChosenGate},
+    {"rate-attempt",
+     "Rate…",
+     "Fill in a rating form beside the look back.",
+     "Lessons",
+     {},
+     {},
+     MayRate,
+     ToggleRating},
+    {"keep-rating",
+     "Keep this rating",
+     "Write the rating with the attempt into the records.",
+     "Lessons",
+     {},
+     {},
+     MayKeepRating,
+     KeepRating},
+    {"attempt-table",
+     "Save table…",
+     "Write every attempt of the records as a table (CSV).",
+     "Lessons",
+     {},
+     {},
+     [](const State& state) { return state.steps.lessons->records->open != nullptr; },
+     SaveAttemptTable},
     {"repeat-exercise",
      "Again",
      "Begin another attempt at the same exercise.",
@@ -110,7 +161,7 @@ constexpr Command kCommands[] = {
      "Lessons",
      {},
      {},
-     HasResult,
+     HasFrames,
      [](State& state) { state.steps.lessons->page = LessonPage::kDebrief; }},
     {"attempt-summary",
      "Result",
@@ -120,26 +171,32 @@ constexpr Command kCommands[] = {
      {},
      HasResult,
      [](State& state) { state.steps.lessons->page = LessonPage::kSummary; }},
+    {"attempt-report",
+     "Save report…",
+     "Write a page (HTML) with steps, criteria, plots and metrics of this attempt, for print.",
+     "Lessons",
+     {},
+     {},
+     HasResult,
+     SaveReport},
     {"debrief-play",
      "Play",
      "Play or stop the look back.",
      "Lessons",
      {},
      {},
-     HasResult,
+     HasFrames,
      [](State& state) {
        Debrief& debrief = state.steps.lessons->debrief;
        debrief.plays = !debrief.plays;
      }},
     {"close-lesson",
      "Close",
-     "Return to the editor.",
+     "Leave the pages of exercises.",
      "Lessons",
      {},
      {},
-     [](const State& state) {
-       return !state.practice && state.steps.lessons->page != LessonPage::kNone;
-     },
+     ShowsLesson,
      Close},
     {"new-exercise",
      "New exercise",

@@ -11,6 +11,7 @@
 #include "app/steps/lessons/attempt.h"
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/running_attempt.h"
+#include "app/steps/lessons/trainee.h"
 #include "app/steps/lessons/value_words.h"
 
 namespace arthro::app {
@@ -54,6 +55,8 @@ void Briefing(Ui& ui, EditorState& state, const Exercise& exercise) {
   const std::string& trainee = state.steps.lessons->records->trainee;
   Text(ui, trainee.empty() ? "No trainee is chosen: the attempt is not kept."
                            : "Kept for trainee " + trainee + ".");
+  FreshStartBoard(state);
+  if (const std::string why = WhyShut(state); !why.empty()) ColouredText(ui, why, kWarning);
   Checkbox(ui, "Test, for the gate", state.steps.lessons->is_test,
            "A test counts for the gate of the exercise; practice does not.");
   Gap(ui);
@@ -163,6 +166,10 @@ void Summary(Ui& ui, EditorState& state, const FinishedAttempt& attempt) {
             result.outcome == AttemptOutcome::kPassed ? kGood : kWarning);
   Text(ui, attempt.exercise.title + ", " + ClockWords(result.duration));
   if (!result.reason.empty()) Text(ui, result.reason);
+  if (!attempt.started.empty())
+    QuietText(ui, fmt::format("Trainee {}, {} UTC, {}", attempt.trainee, TimeWords(attempt.started),
+                              attempt.is_test ? "test" : "practice"));
+  if (!attempt.notice.empty()) ColouredText(ui, attempt.notice, kWarning);
   if (!attempt.kept.empty())
     ColouredText(ui, attempt.kept, HasUnkeptAttempt(state) ? kBad : kQuiet);
   if (HasUnkeptAttempt(state)) CommandButton(ui, state, "keep-attempt", {ui.Px(170), ui.Px(44)});
@@ -182,6 +189,8 @@ void Summary(Ui& ui, EditorState& state, const FinishedAttempt& attempt) {
   ImGui::SameLine();
   CommandButton(ui, state, "attempt-debrief", {ui.Px(150), ui.Px(44)});
   ImGui::SameLine();
+  CommandButton(ui, state, "attempt-report", {ui.Px(150), ui.Px(44)});
+  ImGui::SameLine();
   CommandButton(ui, state, "trainee-page", {ui.Px(170), ui.Px(44)});
   ImGui::SameLine();
   CommandButton(ui, state, "close-lesson", {ui.Px(120), ui.Px(44)});
@@ -194,6 +203,7 @@ void LessonPagePanel(Ui& ui, EditorState& state, const Area& area) {
   LessonsStep& step = *state.steps.lessons;
   if (step.running) return UnderWay(ui, state);
   if (step.page == LessonPage::kStart) return TraineePage(ui, state);
+  if (step.page == LessonPage::kInstructor) return InstructorPage(ui, state);
   if (step.page == LessonPage::kBriefing && ChosenExercise(state) != nullptr)
     return Briefing(ui, state, *ChosenExercise(state));
   if (step.finished) Summary(ui, state, *step.finished);

@@ -19,7 +19,9 @@ namespace arthro::app {
 
 struct Area;
 struct Ui;
+struct CohortBoard;     // instructor/cohort_board.h
 struct LessonRecords;   // keeping/lesson_records.h
+struct RatingBoard;     // instructor/rating_board.h
 struct RunningAttempt;  // running_attempt.h
 struct StartBoard;      // keeping/start_board.h
 
@@ -43,7 +45,7 @@ struct Debrief {
   double speed = 1;
 };
 
-enum class LessonPage { kNone, kStart, kBriefing, kAttempt, kSummary, kDebrief };
+enum class LessonPage { kNone, kStart, kBriefing, kAttempt, kSummary, kDebrief, kInstructor };
 
 struct LessonsStep {
   bool is_test = false;
@@ -51,6 +53,8 @@ struct LessonsStep {
   LessonPage page = LessonPage::kNone;
   Owned<LessonRecords> records;
   Owned<StartBoard> start;
+  Owned<CohortBoard> cohort;
+  Owned<RatingBoard> rating;
   Owned<RunningAttempt> running;
   std::optional<FinishedAttempt> finished;
   Debrief debrief;
@@ -67,6 +71,11 @@ std::span<const Command> LessonCommands();
 // Opens the records at `place`, or those of the user, and recovers attempts that were cut short. An
 // empty place keeps nothing.
 void OpenLessons(EditorState& state, const std::optional<std::string>& place);
+// Shows what an exercise of the scene asks for, to a trainee who begins it next; an empty code: the
+// attempt is not kept. The trainee's page takes its place where nobody has the code. Throws Error
+// for an exercise that the scene does not have.
+void OpenBriefing(EditorState& state, const std::string& exercise, const std::string& trainee,
+                  bool is_test);
 // The program ends: an attempt that runs is stopped and kept.
 void EndLessons(EditorState& state);
 
@@ -78,10 +87,35 @@ void PlayDebrief(EditorState& state, double seconds);
 // Frame that the look back shows; null: none.
 const simulation::AttemptFrame* DebriefFrame(const EditorState& state);
 
+// Shows the result of an attempt in the records. Frames that cannot be read, and a scene that is
+// not the one it was made in, leave FinishedAttempt::notice. Throws Error where the records do not
+// have it.
+void ShowStoredAttempt(EditorState& state, const std::string& id);
+// Asks for a file, and writes the report of the attempt that is shown.
+void SaveReport(EditorState& state);
+
+// ---- Instructor (instructor/). ----
+void ShowInstructorPage(EditorState& state);
+// True where somebody and a reason stand on the page; both are kept in the audit.
+bool MayOpenGate(const EditorState& state);
+void OpenChosenGate(EditorState& state);
+// Asks for a file, and writes every attempt of the records as a table (CSV).
+void SaveAttemptTable(EditorState& state);
+// True while the look back at an attempt of the records is shown.
+bool MayRate(const EditorState& state);
+// Shows the rating form, or takes it away.
+void ToggleRating(EditorState& state);
+bool ShowsRating(const EditorState& state);
+// True where there is a rater and a score.
+bool MayKeepRating(const EditorState& state);
+void KeepRating(EditorState& state);
+
 void ExercisesPanel(Ui& ui, EditorState& state);                     // the editor's step
-void TraineePage(Ui& ui, EditorState& state);                        // inside of the next one
+void TraineePage(Ui& ui, EditorState& state);                        // inside of the page below
+void InstructorPage(Ui& ui, EditorState& state);                     // the same
 void LessonPagePanel(Ui& ui, EditorState& state, const Area& area);  // instead of the practice's
 // The look back: beside the scope's picture, and in the place of the overview.
+void RatingFields(Ui& ui, EditorState& state);  // inside of the next one
 void DebriefSide(Ui& ui, EditorState& state, const Area& area);
 void DebriefPlots(Ui& ui, EditorState& state, const Area& area);
 

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "simulation/core/error.h"
+#include "simulation/scene/exercise/find_exercise.h"
 #include "simulation/scene/json/exercise_json.h"
 
 namespace arthro::app {
@@ -38,7 +41,7 @@ void ReadRows(EditorState& state, StartBoard& board) {
       board.attempts = AttemptsOf(*records.open, records.trainee, HashOf(*chosen));
     std::reverse(board.attempts.begin(), board.attempts.end());
   }
-  board.rows = StandingsFor(exercises, standings, opened);
+  board.rows = StandingsFor(exercises, HashesOf(exercises), standings, opened);
 }
 
 }  // namespace
@@ -90,6 +93,27 @@ const StartBoard& FreshStartBoard(EditorState& state) {
   }
   board.is_stale = false;
   return board;
+}
+
+void OpenBriefing(EditorState& state, const std::string& exercise, const std::string& trainee,
+                  bool is_test) {
+  LessonsStep& step = *state.steps.lessons;
+  const auto& exercises = state.document().scene.exercises;
+  step.chosen = static_cast<int>(&ExerciseWithId(exercises, exercise) - exercises.data());
+  step.is_test = is_test;
+  step.page = LessonPage::kBriefing;
+  if (!trainee.empty()) TakeTraineeCode(state, trainee);
+  if (!FreshStartBoard(state).unknown.empty()) step.page = LessonPage::kStart;
+}
+
+std::string WhyShut(const EditorState& state) {
+  const LessonsStep& step = *state.steps.lessons;
+  const auto chosen = static_cast<std::size_t>(step.chosen);
+  if (step.records->trainee.empty() || step.chosen < 0 || chosen >= step.start->rows.size() ||
+      step.start->rows[chosen].is_open)
+    return "";
+  return fmt::format("Shut for {}: pass \"{}\" first, or let an instructor open it.",
+                     step.records->trainee, step.start->rows[chosen].needed);
 }
 
 }  // namespace arthro::app

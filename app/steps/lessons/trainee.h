@@ -19,4 +19,8 @@ void ChangeTrainee(EditorState& state);
 // The page as the records have it now; read anew where something changed.
 const StartBoard& FreshStartBoard(EditorState& state);
 
+// Why the trainee may not begin the chosen exercise, one sentence; empty: it is open, or no trainee
+// is chosen.
+std::string WhyShut(const EditorState& state);
+
 }  // namespace arthro::app

@@ -26,6 +26,7 @@ struct MetricValue {
   std::string part;  // scope, instrument or both; for contacts the tool and what it touched
   std::optional<double> value;
   std::string why_none;  // empty with a value
+  friend bool operator==(const MetricValue&, const MetricValue&) = default;
 };
 
 // Every metric, in the order in which values are given.

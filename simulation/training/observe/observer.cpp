@@ -23,6 +23,12 @@ constexpr int kClearOfTip = 2;
 
 }  // namespace
 
+RodPose HandOf(const ToolFrame& tool) noexcept {
+  const glm::dvec3 axis(tool.axis);
+  return {std::asin(std::clamp(-axis.y, -1.0, 1.0)), std::atan2(axis.x, axis.z), tool.roll,
+          tool.depth};
+}
+
 Observer::Observer(const LoadedScene& loaded, const std::vector<TargetPlace>& targets,
                    const DepthField& relief, const ScopeEye& eye)
     : optics_(OpticsOf(loaded.scene.scope, loaded.lens)), relief_(relief), eye_(eye) {
@@ -133,12 +139,7 @@ void Observer::Observe(AttemptFrame& frame) const noexcept {
   const Observation before = std::exchange(frame.sight, {});
   frame.sight.targets = static_cast<int>(targets_.size());
   const ToolFrame &scope = frame.tool[0], &tool = frame.tool[1];
-  RodPose hand;
-  const glm::dvec3 axis(scope.axis);
-  hand.latitude = std::asin(std::clamp(-axis.y, -1.0, 1.0));
-  hand.longitude = std::atan2(axis.x, axis.z);
-  hand.roll = scope.roll;
-  hand.depth = scope.depth;
+  const RodPose hand = HandOf(scope);
   // The picture is drawn from beside the drawn tip where a tissue is in the way of the tube.
   const glm::dvec3 lens = glm::dvec3(scope.drawn_tip) + eye_.beside();
   frame.lens = glm::vec3(lens);

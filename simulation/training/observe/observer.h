@@ -21,6 +21,9 @@ inline constexpr double kLeastTransmittance = 0.3;  // share of green light
 inline constexpr double kMostFog = 0.5;             // strength, above which nothing is seen
 inline constexpr double kSurfaceMargin = 5e-4;      // m before the target where the test ends
 
+// Pose of the rod that a tool of a frame has, in its own portal.
+RodPose HandOf(const ToolFrame& tool) noexcept;
+
 class Observer {
  public:
   // `relief` and `eye` are those of the practice, and outlive this; the eye has the present shapes

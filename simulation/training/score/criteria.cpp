@@ -130,7 +130,8 @@ std::optional<double> ZValue(const Metric& metric, double value, std::span<const
   for (const double each : values) mean += scaled(each) / n;
   for (const double each : values) squares += std::pow(scaled(each) - mean, 2);
   const double sd = std::sqrt(squares / (n - 1));
-  if (!(sd > 0)) return std::nullopt;
+  // Members that differ by rounding alone do not differ.
+  if (!(sd > 1e-9 * std::abs(mean)) || !(sd > 0)) return std::nullopt;
   return (metric.is_more_better ? 1 : -1) * (scaled(value) - mean) / sd;
 }
 

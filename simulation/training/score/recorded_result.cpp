@@ -46,8 +46,9 @@ std::vector<std::vector<TraineeAct>> ActsOf(std::span<const AttemptEvent> events
   return acts;
 }
 
-StepEngine EngineOfRecording(const RecordedAttempt& recording, const Exercise& exercise) {
-  StepEngine engine(exercise);
+StepEngine EngineOfRecording(const RecordedAttempt& recording, const Exercise& exercise,
+                             const MetricLimits& limits) {
+  StepEngine engine(exercise, limits.harm);
   AdvanceAll(engine, recording.frames, ActsOf(recording.events, recording.frames.size()));
   engine.Finish();
   return engine;
@@ -55,9 +56,9 @@ StepEngine EngineOfRecording(const RecordedAttempt& recording, const Exercise& e
 
 AttemptResult ResultOfRecording(const RecordedAttempt& recording, const Exercise& exercise,
                                 const std::vector<std::string>& surfaces,
-                                std::span<const GroupValues> groups) {
-  const StepEngine engine = EngineOfRecording(recording, exercise);
-  return ResultOf(engine, MeasureExercise(recording.frames, engine, surfaces), groups);
+                                std::span<const GroupValues> groups, const MetricLimits& limits) {
+  const StepEngine engine = EngineOfRecording(recording, exercise, limits);
+  return ResultOf(engine, MeasureExercise(recording.frames, engine, surfaces, limits), groups);
 }
 
 }  // namespace arthro::simulation

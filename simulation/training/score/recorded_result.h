@@ -18,11 +18,13 @@ std::vector<std::vector<TraineeAct>> ActsOf(std::span<const AttemptEvent> events
                                             std::size_t frames);
 
 // An engine that has taken the whole recording; an attempt that was cut short is stopped.
-StepEngine EngineOfRecording(const RecordedAttempt& recording, const Exercise& exercise);
+StepEngine EngineOfRecording(const RecordedAttempt& recording, const Exercise& exercise,
+                             const MetricLimits& limits = {});
 
 // `surfaces`: as MeasureAttempt takes them.
 AttemptResult ResultOfRecording(const RecordedAttempt& recording, const Exercise& exercise,
                                 const std::vector<std::string>& surfaces,
-                                std::span<const GroupValues> groups = {});
+                                std::span<const GroupValues> groups = {},
+                                const MetricLimits& limits = {});
 
 }  // namespace arthro::simulation

@@ -179,6 +179,8 @@ const std::map<std::string, std::string> kOutputs = {
     {"pivot --output", "pivot @po.csv -o @X"},
     {"practise --log", "practise @S --hands plant --log @X"},
     {"practise --record", "practise @S --record @X.mp4"},
+    {"assess --csv", "assess @S @t.csv --csv @X"},
+    {"assess --json", "assess @S @t.csv --json @X"},
     {"assess --output", "assess @S @t.csv -o @X"},
     {"assess --report", "assess @S @t.csv -o @new.csv --report @X"},
     {"reach --output", "reach @S -o @X"},

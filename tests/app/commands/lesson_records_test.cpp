@@ -7,6 +7,7 @@
 #include "app/editor/every_step.h"
 #include "app/files/scene_files.h"
 #include "app/platform/resource_folder.h"
+#include "app/state/edits.h"
 #include "app/steps/lessons/attempt.h"
 #include "app/steps/lessons/running_attempt.h"
 #include "app/steps/lessons/trainee.h"
@@ -137,6 +138,82 @@ TEST(StartBoard, ShowsTriesAndWhichExerciseMustComeFirst) {
   EXPECT_EQ(board.attempts.size(), 1U);
   for (std::size_t i = 0; i < exercises.size(); ++i)
     EXPECT_EQ(board.rows[i].is_open, exercises[i].needs.empty()) << exercises[i].id;
+}
+
+// One stopped attempt of T-1 in the records.
+struct WithAttempt : Window {
+  WithAttempt() {
+    step().start->unknown = "T-1";
+    AddTraineeCode(state);
+    Practise(90);
+    app::Run(state, "leave-practice");
+  }
+  std::string id() { return Kept("T-1").at(0).id; }
+};
+
+TEST(StoredAttempt, IsShownWithTheResultAndTheFramesThatItHadAfterThePractice) {
+  WithAttempt window;
+  const FinishedAttempt after = *window.step().finished;
+  ASSERT_FALSE(after.frames.empty());
+  window.step().finished.reset();
+  ShowStoredAttempt(window.state, window.id());
+  const FinishedAttempt& shown = *window.step().finished;
+  EXPECT_EQ(window.step().page, LessonPage::kSummary);
+  EXPECT_EQ(shown.notice, "");
+  EXPECT_EQ(shown.exercise, after.exercise);
+  EXPECT_EQ(shown.trainee, "T-1");
+  EXPECT_TRUE(shown.frames == after.frames);
+  EXPECT_EQ(shown.result.outcome, after.result.outcome);
+  EXPECT_EQ(shown.result.reason, after.result.reason);
+  EXPECT_EQ(shown.result.events, after.result.events);
+  EXPECT_EQ(shown.result.steps.size(), after.result.steps.size());
+  ASSERT_EQ(shown.result.criteria.size(), after.result.criteria.size());
+  for (std::size_t i = 0; i < after.result.criteria.size(); ++i) {
+    EXPECT_EQ(shown.result.criteria[i].value, after.result.criteria[i].value);
+    EXPECT_EQ(shown.result.criteria[i].source, after.result.criteria[i].source);
+    EXPECT_EQ(shown.result.criteria[i].is_start_value, after.result.criteria[i].is_start_value);
+  }
+  for (const simulation::MetricValue& value : after.result.metrics)
+    EXPECT_NE(std::ranges::find(shown.result.metrics, value), shown.result.metrics.end())
+        << value.metric->id << " " << value.part;
+  app::Run(window.state, "attempt-debrief");
+  EXPECT_NE(DebriefFrame(window.state), nullptr);
+}
+
+TEST(StoredAttempt, OfASceneThatHasChangedSaysSo) {
+  WithAttempt window;
+  SetIncisionSpacing(window.state, 0.02);
+  ShowStoredAttempt(window.state, window.id());
+  EXPECT_NE(window.step().finished->notice.find("as it was then"), std::string::npos);
+  EXPECT_FALSE(window.step().finished->frames.empty());
+}
+
+TEST(StoredAttempt, WithoutItsLogHasItsResultAndSaysWhyThereIsNoLookBack) {
+  WithAttempt window;
+  const std::string log = window.Kept("T-1").at(0).log;
+  std::filesystem::remove(window.folder / log);
+  ShowStoredAttempt(window.state, window.id());
+  EXPECT_NE(window.step().finished->notice.find("look back is not there"), std::string::npos);
+  EXPECT_EQ(window.step().finished->result.outcome, simulation::AttemptOutcome::kStopped);
+  EXPECT_FALSE(CommandOf(window.state, "attempt-debrief").enabled(window.state));
+  EXPECT_TRUE(CommandOf(window.state, "attempt-report").enabled(window.state));
+}
+
+TEST(OpenBriefing, IsForTheTraineeAndSaysWhyAnExerciseIsShut) {
+  WithAttempt window;
+  ChangeTrainee(window.state);
+  OpenBriefing(window.state, "telescope", "T-1", true);
+  EXPECT_EQ(window.step().page, LessonPage::kBriefing);
+  EXPECT_TRUE(window.step().is_test);
+  EXPECT_EQ(window.step().records->trainee, "T-1");
+  EXPECT_NE(WhyShut(window.state).find("pass \"Centre and hold\" first"), std::string::npos);
+  EXPECT_FALSE(MayBeginExercise(window.state));
+  OpenBriefing(window.state, "centre-and-hold", "T-1", false);
+  EXPECT_EQ(WhyShut(window.state), "");
+  EXPECT_TRUE(MayBeginExercise(window.state));
+  OpenBriefing(window.state, "centre-and-hold", "T-2", false);
+  EXPECT_EQ(window.step().page, LessonPage::kStart) << "nobody has this code";
+  EXPECT_THROW(OpenBriefing(window.state, "none", "", false), Error);
 }
 
 }  // namespace

@@ -1,14 +1,15 @@
 // The report says what was measured against which limit, and no more.
-#include "app/report/attempt_report.h"
-
 #include <algorithm>
 #include <cctype>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "app/report/assessment_file.h"
 #include "app/report/attempt_words.h"
+#include "simulation/core/atomic_file.h"
 #include "tests/support/sample_report.h"
+#include "tests/support/schema_fault.h"
 
 namespace arthro::app {
 namespace {
@@ -73,11 +74,53 @@ TEST(AttemptReport, JsonAndTableHaveTheSameValues) {
   EXPECT_EQ(json["outcome"], "failed");
   EXPECT_EQ(json["criteria"][0]["value"], 9.1);
   EXPECT_EQ(json["criteria"][0]["unit"], "N");
-  EXPECT_TRUE(json["metrics"][2]["value"].is_null());
+  EXPECT_FALSE(json["metrics"][2].contains("value"));
+  EXPECT_EQ(json["metrics"][2]["why_none"], "The tip was never in the joint.");
   EXPECT_EQ(json["events"].size(), 4u);
   const std::string table = MetricTable(report);
-  EXPECT_NE(table.find("peak_force,instrument,9.1,N,,8.5,0,PMC3023859,\n"), std::string::npos)
+  EXPECT_NE(table.find("peak_force,instrument,9.1,N,less,,8.5,0,PMC3023859,,\n"), std::string::npos)
       << table;
+}
+
+TEST(AttemptReport, JsonFollowsItsSchema) {
+  EXPECT_EQ(test::SchemaFault("assessment-1", AttemptJson(SampleReport())), "");
+  EXPECT_EQ(ReadWholeFile(std::filesystem::path(ARTHRO_SOURCE_DIR) /
+                          "resources/schemas/assessment-1.schema.json"),
+            AssessmentSchema())
+      << "run `arthroscene records check --assessment-schema > "
+         "resources/schemas/assessment-1.schema.json`";
+}
+
+TEST(AttemptReport, ShowsTheMiddleHalfAndZOfAReferenceGroup) {
+  AttemptReport report = SampleReport();
+  report.group = "experts";
+  report.standings = {{"task_time", "both", 6, 60.0, 50.0, 66.0, -1.25}};
+  const std::string page = AttemptPage(report);
+  EXPECT_NE(page.find("Middle half of experts"), std::string::npos);
+  EXPECT_NE(page.find("50 s to 66 s (n = 6), z = -1.2"), std::string::npos) << page;
+  const auto json = nlohmann::json::parse(AttemptJson(report));
+  EXPECT_EQ(json["metrics"][0]["group"]["median"], 60);
+  EXPECT_EQ(json["metrics"][0]["group"]["z"], -1.25);
+  EXPECT_FALSE(json["metrics"][1].contains("group"));
+}
+
+TEST(AttemptReport, DrawsNoBarForAStepThatWasNeverReached) {
+  AttemptReport report = SampleReport();
+  report.attempt.steps[1] = {"s2", "pending", 0, {}};
+  EXPECT_NE(AttemptPage(report).find("s2: not begun"), std::string::npos);
+}
+
+TEST(AttemptReport, OfHandsWithoutAnExerciseHasNoOutcome) {
+  AttemptReport report = SampleReport();
+  report.exercise = {};
+  report.is_mode_known = false;
+  report.trainee.clear();
+  const std::string page = AttemptPage(report);
+  for (const char* word : {"class=\"outcome\"", "Criteria", "Trainee", "Mode"})
+    EXPECT_EQ(page.find(word), std::string::npos) << word;
+  const auto json = nlohmann::json::parse(AttemptJson(report));
+  for (const char* key : {"exercise", "outcome", "mode", "trainee"})
+    EXPECT_FALSE(json.contains(key)) << key;
 }
 
 TEST(AttemptReport, TenMinutesFitIntoASmallPage) {
@@ -88,7 +131,7 @@ TEST(AttemptReport, TenMinutesFitIntoASmallPage) {
 TEST(AttemptWords, LengthsAndAnglesAreThoseOfAReader) {
   EXPECT_EQ(ValueWords(0.2518, "m"), "251.8 mm");
   EXPECT_EQ(ValueWords(3.14159265, "rad"), "180 °");
-  EXPECT_EQ(ValueWords(1e-5, "m²"), "10 mm²");
+  EXPECT_EQ(ValueWords(1e-5, "m2"), "10 mm²");
   EXPECT_EQ(ValueWords(12345.6, "s"), "12346 s");
   EXPECT_EQ(ValueWords(6.852e-17, "m"), "0 mm");
   EXPECT_EQ(ValueWords({}, "m"), "not measured");

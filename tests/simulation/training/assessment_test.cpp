@@ -5,7 +5,6 @@
 #include <set>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "simulation/practice/scripted_device.h"
 
@@ -51,8 +50,7 @@ TEST(Assessment, MeasuresRecordedHands) {
   const LoadedScene loaded = BareSphere();
   const auto trace = SwingAndPress(loaded);
   const Assessment assessment = Assess(loaded, {trace, {}});
-  EXPECT_EQ(assessment.frames, 1000U);
-  EXPECT_EQ(assessment.unknown, 0U);
+  EXPECT_EQ(assessment.frames.size(), 1000U);
   EXPECT_NEAR(assessment.duration, 10, 1e-9);
   EXPECT_NEAR(ValueOf(assessment, "task_time", "both"), 10, 1e-9);
   // Two swings of four quarters each; an arc of 20 mm; in and out by 20.5 mm.
@@ -83,23 +81,10 @@ TEST(Assessment, SaysWhatTheScopeDidNot) {
   for (const char* id : {"path", "turn", "sparc", "peak_force"}) EXPECT_TRUE(missing.contains(id));
 }
 
-TEST(Assessment, TableAndReportHoldTheSameValues) {
+TEST(Assessment, GivesTheSameBitsAgain) {
   const LoadedScene loaded = BareSphere();
   const auto trace = SwingAndPress(loaded);
-  const Assessment assessment = Assess(loaded, {trace, {}});
-  const std::string table = AssessmentTable(assessment);
-  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'),
-            static_cast<std::ptrdiff_t>(assessment.values.size()) + 1);
-  EXPECT_NE(table.find("\ntask_time,both,10"), table.npos) << table.substr(0, 200);
-  const auto json = nlohmann::json::parse(AssessmentReport(assessment, "sphere"));
-  EXPECT_EQ(json["schema"], "arthroscene.assessment/1");
-  ASSERT_EQ(json["metrics"].size(), assessment.values.size());
-  for (std::size_t i = 0; i < assessment.values.size(); ++i) {
-    const MetricValue& value = assessment.values[i];
-    EXPECT_EQ(json["metrics"][i]["value"].is_null(), !value.value);
-    EXPECT_EQ(json["metrics"][i].contains("why_none"), !value.value);
-  }
-  EXPECT_EQ(AssessmentTable(Assess(loaded, {trace, {}})), table);
+  EXPECT_TRUE(Assess(loaded, {trace, {}}).values == Assess(loaded, {trace, {}}).values);
 }
 
 }  // namespace

@@ -57,6 +57,9 @@ TEST(Criteria, ZValuesArePositiveForTheBetter) {
   EXPECT_NEAR(*ZValue(MetricOf("seen_share"), 1, shares), -2 / std::sqrt(2.5), 1e-12);
   EXPECT_FALSE(ZValue(MetricOf("seen_share"), 1, std::span(shares).first(4)));
   EXPECT_FALSE(ZValue(MetricOf("task_time"), 0, times));
+  const double next = std::nextafter(0.1, 1);
+  EXPECT_FALSE(ZValue(MetricOf("seen_share"), 1, std::vector{0.1, 0.1, next, 0.1, next}))
+      << "members that differ by rounding alone";
 }
 
 TEST(Criteria, PassNeedsStepsAndCriteria) {

@@ -7,6 +7,7 @@
 #include "simulation/core/error.h"
 #include "simulation/scene/json/exercise_json.h"
 #include "simulation/training/observe/surface_names.h"
+#include "simulation/training/scene_of_attempt.h"
 
 namespace arthro::app {
 namespace {
@@ -94,8 +95,8 @@ void LeaveTrainee(LessonRecords& records) {
   records.trainee.clear();
 }
 
-std::string BeginKeeping(LessonRecords& records, const Exercise& exercise, const Scene& scene,
-                         AttemptMode mode, const std::string& rig) {
+std::string BeginKeeping(LessonRecords& records, const Exercise& exercise,
+                         const LoadedScene& loaded, AttemptMode mode, const std::string& rig) {
   records.attempt.reset();
   records.unwritten.reset();
   if (records.place.empty()) return "This attempt is not kept: this window has no records.";
@@ -110,8 +111,9 @@ std::string BeginKeeping(LessonRecords& records, const Exercise& exercise, const
   AttemptPlan plan;
   plan.trainee = records.trainee;
   plan.exercise = ExerciseRowOf(exercise);
-  plan.scene = scene.title;
-  plan.surfaces = simulation::SurfaceNames(scene);
+  plan.scene = loaded.scene.title;
+  plan.scene_fingerprint = simulation::FingerprintOfScene(loaded);
+  plan.surfaces = simulation::SurfaceNames(loaded.scene);
   plan.mode = mode;
   plan.program = Program();
   plan.rig = rig;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/records/keeping/kept_attempt.h"
-#include "simulation/scene/scene.h"
+#include "simulation/scene/files/loaded_scene.h"
 
 namespace arthro::app {
 
@@ -41,8 +41,8 @@ void LeaveTrainee(LessonRecords& records);
 
 // Begins to keep an attempt; without a place or a trainee nothing is kept. Returns a sentence where
 // it is not kept as it should; empty where all is well.
-std::string BeginKeeping(LessonRecords& records, const Exercise& exercise, const Scene& scene,
-                         AttemptMode mode, const std::string& rig);
+std::string BeginKeeping(LessonRecords& records, const Exercise& exercise,
+                         const LoadedScene& loaded, AttemptMode mode, const std::string& rig);
 // Writes the result. Returns a sentence that says where the attempt is.
 std::string EndKeeping(LessonRecords& records, const simulation::AttemptResult& result);
 

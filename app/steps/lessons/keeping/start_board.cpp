@@ -23,14 +23,22 @@ std::vector<simulation::GateAttempt> TestsAt(const std::string& id, const std::s
 
 }  // namespace
 
+std::vector<std::string> HashesOf(const std::vector<Exercise>& exercises) {
+  std::vector<std::string> hashes;
+  for (const Exercise& exercise : exercises) hashes.push_back(HashOf(exercise));
+  return hashes;
+}
+
 std::vector<ExerciseStanding> StandingsFor(const std::vector<Exercise>& exercises,
+                                           const std::vector<std::string>& hashes,
                                            const std::vector<Standing>& standings,
                                            const std::vector<GateRow>& opened) {
   std::vector<ExerciseStanding> rows;
   std::set<std::string> passed;  // ids whose gates are open
   std::vector<bool> is_opened;   // opened by an instructor
-  for (const Exercise& exercise : exercises) {
-    const std::string hash = HashOf(exercise);
+  for (std::size_t i = 0; i < exercises.size(); ++i) {
+    const Exercise& exercise = exercises[i];
+    const std::string& hash = hashes.at(i);
     ExerciseStanding& row = rows.emplace_back();
     for (const Standing& standing : standings) {
       if (standing.exercise != hash) continue;

@@ -34,8 +34,10 @@ struct StartBoard {
   bool is_stale = true;
 };
 
-// `standings` and `opened` are those of one trainee.
+std::vector<std::string> HashesOf(const std::vector<Exercise>& exercises);
+// `standings` and `opened` are those of one trainee; `hashes` those of the exercises.
 std::vector<ExerciseStanding> StandingsFor(const std::vector<Exercise>& exercises,
+                                           const std::vector<std::string>& hashes,
                                            const std::vector<Standing>& standings,
                                            const std::vector<GateRow>& opened);
 

@@ -1,12 +1,11 @@
 // The trainee's page: every exercise of the scene with the best result, the tries and its gate, and
 // the earlier attempts at the chosen one.
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include "app/panels/command_button.h"
 #include "app/panels/fixed_window.h"
+#include "app/state/command.h"
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/keeping/start_board.h"
 #include "app/steps/lessons/trainee.h"
@@ -100,14 +99,17 @@ void EarlierAttempts(Ui& ui, EditorState& state, const StartBoard& board) {
   if (chosen == nullptr) return QuietText(ui, "Choose an exercise to see the attempts at it.");
   Text(ui, chosen->title);
   if (board.attempts.empty()) return QuietText(ui, "No attempt yet.");
-  for (const AttemptRecord& attempt : board.attempts) {
-    std::string when = attempt.started.substr(0, 16);  // "2026-11-24T02:10"
-    std::replace(when.begin(), when.end(), 'T', ' ');
-    ListEntry(ui,
-              fmt::format("{}  {}  {}##{}", when, simulation::ToString(attempt.outcome),
-                          attempt.duration ? ValueWords(attempt.duration, "s") : "", attempt.id),
-              false);
-  }
+  std::string opened;
+  for (const AttemptRecord& attempt : board.attempts)
+    if (ListEntry(
+            ui,
+            fmt::format("{}  {}  {}##{}", TimeWords(attempt.started),
+                        simulation::ToString(attempt.outcome),
+                        attempt.duration ? ValueWords(attempt.duration, "s") : "", attempt.id),
+            false))
+      opened = attempt.id;
+  QuietText(ui, "Choose an attempt to see its result and to look back at it.");
+  if (!opened.empty()) Guarded(state, "Attempt", [&] { ShowStoredAttempt(state, opened); });
 }
 
 }  // namespace
@@ -128,6 +130,8 @@ void TraineePage(Ui& ui, EditorState& state) {
   Exercises(ui, state, board);
   ImGui::EndChild();
   CommandButton(ui, state, "close-lesson", {ui.Px(120), ui.Px(44)});
+  ImGui::SameLine();
+  CommandButton(ui, state, "instructor-page", {ui.Px(170), ui.Px(44)});
 }
 
 }  // namespace arthro::app

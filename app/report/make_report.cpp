@@ -1,0 +1,109 @@
+#include "app/report/make_report.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/records/attempts/attempts.h"
+#include "app/records/attempts/records_file.h"
+#include "app/records/keeping/kept_attempt.h"
+#include "app/records/people/reference_groups.h"
+#include "simulation/core/error.h"
+#include "simulation/scene/json/exercise_json.h"
+#include "simulation/training/attempt_log.h"
+#include "simulation/training/score/criteria.h"
+
+namespace arthro::app {
+namespace {
+
+void SetExercise(AttemptReport& report, const Exercise& exercise) {
+  report.goal = exercise.brief;
+  for (const ExerciseTarget& target : exercise.targets) report.targets.push_back(target.id);
+}
+
+const simulation::Metric* MetricOf(const std::string& id) {
+  for (const simulation::Metric& metric : simulation::EveryMetric())
+    if (metric.id == id) return &metric;
+  return nullptr;
+}
+
+ReferenceGroup FindGroup(Records& records, const std::string& name, const ExerciseRow& exercise) {
+  const auto groups = ReferenceGroupsOf(records);
+  std::vector<std::string> names;
+  for (const ReferenceGroup& group : groups) {
+    if (group.exercise != exercise.hash) continue;
+    if (group.name == name) return group;
+    names.push_back(group.name);
+  }
+  throw Error(Code::kBadArgument,
+              names.empty()
+                  ? fmt::format("the records hold no reference group for this version of the "
+                                "exercise {}; make one with `arthroscene records reference`",
+                                exercise.id)
+                  : fmt::format("the records hold no reference group {} for the exercise {}; there "
+                                "are: {}",
+                                name, exercise.id, fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+AttemptReport MakeReport(const Exercise& exercise, const simulation::AttemptResult& result,
+                         std::vector<simulation::AttemptFrame> frames) {
+  AttemptReport report;
+  report.exercise = ExerciseRowOf(exercise);
+  report.is_mode_known = false;
+  report.frames = std::move(frames);
+  report.attempt.metrics_version = simulation::kMetricsVersion;
+  SetResult(report.attempt, result);
+  SetExercise(report, exercise);
+  return report;
+}
+
+AttemptReport ReportFromRecords(Records& records, const std::string& attempt, std::string& notice) {
+  const RecordsBundle bundle = ReadBundleOf(records, attempt);
+  AttemptReport report;
+  report.attempt = bundle.attempts.at(0);
+  report.exercise = bundle.exercises.at(0);
+  report.trainee = bundle.trainees.at(0).code;
+  report.station = bundle.sessions.at(0).station;
+  report.rig = bundle.sessions.at(0).rig;
+  report.program = bundle.sessions.at(0).program;
+  try {
+    SetExercise(report, ExerciseFromJson(report.exercise.json));
+    report.frames = simulation::ReadAttempt(records.folder() / report.attempt.log).frames;
+  } catch (const Error& fault) {
+    notice = fmt::format("the frames are left out: {}", fault.what());
+  }
+  return report;
+}
+
+void SetGroup(AttemptReport& report, Records& records, const std::string& group) {
+  const ReferenceGroup found = FindGroup(records, group, report.exercise);
+  if (found.metrics_version != report.attempt.metrics_version)
+    throw Error(Code::kBadData,
+                fmt::format("the reference group {} has metrics of version {}, and this attempt of "
+                            "version {}; make the group anew with `arthroscene records reference`",
+                            group, found.metrics_version, report.attempt.metrics_version));
+  report.group = group;
+  const auto members = MemberValues(records, found);
+  report.standings.clear();
+  for (const ReferenceValueRow& row : found.values) {
+    GroupStanding& standing = report.standings.emplace_back();
+    standing = {row.metric, row.part, row.n, row.median, row.q1, row.q3, {}};
+    const auto own = std::find_if(
+        report.attempt.metrics.begin(), report.attempt.metrics.end(),
+        [&](const MetricRow& each) { return each.name == row.metric && each.part == row.part; });
+    const simulation::Metric* metric = MetricOf(row.metric);
+    const auto values = members.find({row.metric, row.part});
+    // Only an attempt that came to its end is held against others.
+    const bool is_whole = report.attempt.outcome == AttemptOutcome::kPassed ||
+                          report.attempt.outcome == AttemptOutcome::kFailed;
+    if (is_whole && own != report.attempt.metrics.end() && own->value && metric != nullptr &&
+        values != members.end())
+      standing.z = simulation::ZValue(*metric, *own->value, values->second);
+  }
+}
+
+}  // namespace arthro::app

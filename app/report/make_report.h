@@ -1,0 +1,25 @@
+// Reports of attempts: from a result that was just made, and from the records.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/records/store/records.h"
+#include "app/report/attempt_report.h"
+#include "simulation/scene/exercise/exercise.h"
+
+namespace arthro::app {
+
+// Report of a result with its frames. Attempt id, trainee, scene and mode are not known of it.
+AttemptReport MakeReport(const Exercise& exercise, const simulation::AttemptResult& result,
+                         std::vector<simulation::AttemptFrame> frames);
+
+// Report of an attempt in the records, with the frames of its log. Where the log cannot be read the
+// frames are missing, and `notice` is a sentence. Throws Error where there is no such attempt.
+AttemptReport ReportFromRecords(Records& records, const std::string& attempt, std::string& notice);
+
+// Sets the standing of each metric in a reference group of the report's exercise. Throws Error with
+// the groups that there are.
+void SetGroup(AttemptReport& report, Records& records, const std::string& group);
+
+}  // namespace arthro::app

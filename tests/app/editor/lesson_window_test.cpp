@@ -1,0 +1,92 @@
+// practise --exercise --trainee: the window on the briefing of an exercise, the attempt, its result
+// and the look back, later as well.
+#include <gtest/gtest.h>
+
+#include "tests/support/run_window.h"
+
+namespace arthro {
+namespace {
+
+class LessonWindow : public testing::Test {
+ protected:
+  void SetUp() override { ARTHRO_REQUIRE_XVFB(); }
+  std::string Flags(const std::string& flags) const {
+    return "practise " ARTHRO_SOURCE_DIR "/resources/demo --records " +
+           (folder / "records.sqlite").string() + " " + flags;
+  }
+  void AddTrainee(const std::string& code) {
+    ASSERT_EQ(test::RunProgram("records trainee add " + code + " --records " +
+                               (folder / "records.sqlite").string())
+                  .exit_code,
+              0);
+  }
+  test::TempFolder folder;
+};
+
+TEST_F(LessonWindow, OpensOnTheBriefingAndKeepsTheAttemptAsATest) {
+  AddTrainee("T-1");
+  const auto result = test::RunWindow(Flags("--exercise centre-and-hold --trainee T-1 --test"), R"(
+wait frames 5
+expect "Centre and hold"
+expect "Kept for trainee T-1."
+expect value "Test, for the gate" on
+expect enabled "Begin"
+click "Begin"
+wait job
+wait frames 60
+click "End attempt"
+expect "Stopped"
+expect "Kept for T-1 in the records."
+click "Look back"
+wait frames 5
+expect "Events"
+click "Result"
+expect enabled "Save report…"
+click "Trainee's page"
+wait frames 5
+expect "Earlier attempts"
+expect "T-1"
+)");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const auto list = test::RunProgram("records list --trainee T-1 --records " +
+                                     (folder / "records.sqlite").string());
+  EXPECT_NE(list.out.find("test      stopped"), std::string::npos) << list.out;
+}
+
+TEST_F(LessonWindow, SaysWhyAnExerciseIsShut) {
+  AddTrainee("T-1");
+  const auto result = test::RunWindow(Flags("--exercise telescope --trainee T-1"), R"(
+wait frames 5
+expect "Shut for T-1: pass \"Centre and hold\" first"
+expect disabled "Begin"
+)");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(LessonWindow, ClosingThePageEndsTheJob) {
+  const auto result = test::RunWindow(Flags("--exercise telescope"), R"(
+wait frames 5
+expect "No trainee is chosen: the attempt is not kept."
+expect enabled "Begin"
+click "Close"
+)");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(LessonWindow, RefusesAnUnknownTraineeOrExerciseBeforeThereIsAWindow) {
+  const auto refused = [&](const std::string& flags, int code, const std::string& words) {
+    const auto result = test::RunProgram(Flags(flags), "DISPLAY=");
+    EXPECT_EQ(result.exit_code, code) << result.err;
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+  };
+  refused("--exercise telescope --trainee T-9", 1, "records trainee add T-9 --records");
+  AddTrainee("T-1");
+  refused("--exercise telescope --trainee T-9", 1, "no trainee has the code T-9");
+  refused("--exercise telescope --trainee 'Jane Doe'", 1, "must not be a name");
+  refused("--exercise none --trainee T-1", 1, "it has centre-and-hold, telescope");
+  refused("--trainee T-1", 2, "--exercise");
+  refused("--exercise telescope --test", 2, "--trainee");
+}
+
+}  // namespace
+}  // namespace arthro
