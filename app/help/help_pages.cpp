@@ -32,10 +32,16 @@ std::string TitleOf(const fs::path& file) {
 }  // namespace
 
 std::vector<HelpPage> HelpPages() {
+  std::error_code ignored;
+  if (!fs::exists(FileOf(kIndex), ignored))
+    throw Error(
+        Code::kFile,
+        "the manual is not here; install the program again, or read resources/doc/manual of "
+        "its sources",
+        FileOf(kIndex));
   const std::string index = ReadWholeFile(FileOf(kIndex), kMostPageBytes);
   std::vector<HelpPage> pages = {{kIndex, TitleOf(FileOf(kIndex))}};
   static const std::regex link(R"(\]\(([a-z-]+)\.md\))");
-  std::error_code ignored;
   for (std::sregex_iterator found(index.begin(), index.end(), link), none; found != none; ++found) {
     const std::string name = (*found)[1];
     bool is_known = !fs::exists(FileOf(name), ignored);
