@@ -25,7 +25,7 @@ struct EditorOptions {
   // Absent: the start page is shown, or the demo scene for a script.
   std::optional<std::filesystem::path> scene;
   bool practice = false;                      // the practise job: nothing but practice
-  std::optional<LessonChoice> lesson;         // of the practise job; none: it begins at once
+  std::optional<LessonChoice> lesson;         // exercise of the practise job; none: it begins
   simulation::HandsChoice hands;              // devices that hold them
   simulation::SessionOptions session;         // options of every practice
   std::optional<std::filesystem::path> film;  // film of a practice, from its beginning

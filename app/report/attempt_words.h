@@ -10,7 +10,7 @@ namespace arthro::app {
 
 // Files hold SI units; a person reads these.
 struct ShownUnit {
-  double factor;  // of a value in SI
+  double factor;  // factor of a value in SI
   std::string words;
 };
 ShownUnit ShownUnitOf(const std::string& unit);

@@ -11,7 +11,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr int kTicksPerLook = 10;  // as often as a frame ends
+constexpr int kTicksPerLook = 10;  // ticks of a frame
 
 LoggedMount MountOf(const DeviceRig& rig) {
   return {rig.pivot, rig.portal_from_device, rig.rod_length};

@@ -1,4 +1,4 @@
-// arthroscene assess SCENE ATTEMPT [--exercise ID] [method.md, Metrics and Score]: how an attempt
+// arthroscene assess SCENE ATTEMPT [--exercise ID] [method.md, Score]: how an attempt
 // was done. With an exercise: its steps, criteria and metrics, as while it ran; without: numbers of
 // the recorded hands alone.
 #include <filesystem>

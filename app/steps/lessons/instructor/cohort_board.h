@@ -16,8 +16,8 @@ namespace arthro::app {
 struct CohortCell {
   int tries = 0, passes = 0;
   std::string last;             // outcome of the last attempt; empty: none
-  bool is_gate_passed = false;  // by tests
-  bool is_gate_opened = false;  // by an instructor
+  bool is_gate_passed = false;  // passed by tests
+  bool is_gate_opened = false;  // opened by an instructor
 };
 
 struct CohortRowOfPage {
@@ -28,7 +28,7 @@ struct CohortRowOfPage {
 // A trainee's attempts at one exercise.
 struct LearningCurve {
   std::vector<AttemptPoint> points;
-  std::vector<std::optional<double>> median;      // of the last three
+  std::vector<std::optional<double>> median;      // median of the last three
   std::vector<double> cusum;                      // one per attempt that was passed or failed
   std::string advice;                             // one sentence; CUSUM decides nothing
   std::optional<std::pair<double, double>> band;  // quartiles of the reference group
@@ -54,7 +54,7 @@ struct CohortBoard {
 std::vector<CohortRowOfPage> CohortRows(const std::vector<std::string>& codes,
                                         const std::vector<Exercise>& exercises,
                                         const std::vector<Standing>& standings);
-// What CUSUM says of finished attempts, oldest first.
+// Returns what CUSUM says of finished attempts, oldest first.
 std::string CusumAdvice(const std::vector<double>& cusum);
 // Medians, sums and advice from the points.
 LearningCurve CurveOf(std::vector<AttemptPoint> points);
