@@ -72,7 +72,8 @@ glm::dvec3 ComputeVertex(const std::array<double, 8>& value, const CellPatches& 
 }
 
 std::size_t BrickAt(const std::array<int, 3>& bricks, const Cell& b) {
-  return static_cast<std::size_t>((b[2] * bricks[1] + b[1]) * bricks[0] + b[0]);
+  const int at = (b[2] * bricks[1] + b[1]) * bricks[0] + b[0];
+  return static_cast<std::size_t>(at);
 }
 
 // Calls test(first, count) for the rows of the nodes at the cells of a brick, until one returns
@@ -80,11 +81,10 @@ std::size_t BrickAt(const std::array<int, 3>& bricks, const Cell& b) {
 template <class Test>
 bool EachRow(const FieldGrid& grid, const Cell& b, const Test& test) {
   const auto end = [&](std::size_t a) { return std::min((b[a] + 1) * kBrick, grid.count[a] - 1); };
-  const int first = b[0] * kBrick;
+  const int first = b[0] * kBrick, count = end(0) - first + 1;
   for (int k = b[2] * kBrick; k <= end(2); ++k)
     for (int j = b[1] * kBrick; j <= end(1); ++j)
-      if (!test(grid.Index(first, j, k), static_cast<std::size_t>(end(0) - first + 1)))
-        return false;
+      if (!test(grid.Index(first, j, k), static_cast<std::size_t>(count))) return false;
   return true;
 }
 
