@@ -59,7 +59,7 @@ struct PlacedTool {
   ToolKind kind = ToolKind::kNone;
   glm::dvec3 tip{0.0}, motion{0.0};
   ToolGrip grip;
-  TissueContact felt;  // of the last solved step, with its tip; tissue −1: none
+  TissueContact felt;  // contact of the last solved step; tissue −1: none
   glm::dvec3 felt_at{0.0};
   Capsule bite;  // volume removed when it closes or runs
   CutTrigger trigger;
@@ -109,7 +109,7 @@ struct DeformableBody::Impl {
   SolidField field;
   std::unique_ptr<BodyShape> shape;
   std::unique_ptr<CutState> cut;       // null: whole
-  std::unique_ptr<CutState> prepared;  // by work beside the steps
+  std::unique_ptr<CutState> prepared;  // made beside the steps
   CutReport taken;
   ImplicitSolver solver;
   ObstacleContactOptions on_obstacle;

@@ -38,7 +38,7 @@ class SkinCarver {
   SolidField field_of_whole_;
   std::vector<glm::dvec3> normals_, smooth_normals_;  // the latter zero at creases
   SurfaceFinder finder_;
-  FieldSkin faces_;              // of the cuts, as they were last
+  FieldSkin faces_;              // faces of the cuts, as they were last
   std::vector<double> outside_;  // DistanceFromWhole per vertex of faces_
 };
 

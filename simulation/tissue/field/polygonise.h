@@ -61,7 +61,7 @@ class FieldSkin {
   std::vector<Brick> bricks_;
   FieldGrid grid_;
   std::uint64_t version_ = 0;
-  std::vector<float> values_;  // of the last update from other values
+  std::vector<float> values_;  // values of the last update by others
 };
 
 inline SurfaceMesh Polygonise(const SolidField& field) { return FieldSkin(field).surface(); }

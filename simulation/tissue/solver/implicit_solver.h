@@ -54,7 +54,7 @@ struct BodyState {
 struct StepReport {
   double residual = 0;  // relative, as in `tolerance`
   int newton = 0, iterations = 0;
-  int work = 0;  // as in `max_work`
+  int work = 0;  // in the unit of `max_work`
   int inverted = 0;
   double energy = 0;       // J, elastic
   bool converged = false;  // residual ≤ tolerance

@@ -26,7 +26,7 @@ constexpr int kIterationsOfAFactor = 36;
 // Iterations that cost as much as the energy, forces and tangent of a Newton iteration, and as the
 // rounds of one that recovers.
 constexpr int kIterationsOfATangent = 16, kIterationsOfARecovery = 36;
-constexpr int kFewestIterations = 6;  // of a system, however much work is done already
+constexpr int kFewestIterations = 6;  // least for a system, however much work is done already
 
 }  // namespace
 

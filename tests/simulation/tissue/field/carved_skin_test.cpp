@@ -136,7 +136,7 @@ TEST(CarvedSkin, CarvingOnEqualsCarvingAnew) {
                    [&](const glm::dvec3& x) { return glm::distance(x, at) - kBite; });
     states.push_back(field);
   }
-  states.push_back(states[3]);  // as an undo
+  states.push_back(states[3]);  // like an undo
   states.push_back(uncut);
   states.push_back(states[8]);
   for (std::size_t i = 0; i < states.size(); ++i) {
