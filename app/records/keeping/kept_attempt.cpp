@@ -112,7 +112,7 @@ std::string KeptAttempt::Finish(Records* records, const simulation::AttemptResul
   if (is_finished_) return {};
   CloseLog();
   SetResult(bundle_.attempts[0], result);
-  const std::string where = FinishOrKeep(records, folder_, bundle_);
+  std::string where = FinishOrKeep(records, folder_, bundle_);
   // A row that waited in the outbox since the begin is in the records now.
   if (std::error_code ignored; where.empty())
     fs::remove(OutboxOf(folder_) / (record().id + ".json"), ignored);

@@ -129,7 +129,7 @@ std::string EndKeeping(LessonRecords& records, const simulation::AttemptResult& 
   try {
     const std::string where =
         records.attempt->Finish(ReachRecords(records) ? records.open.get() : nullptr, result);
-    const std::string kept =
+    std::string kept =
         where.empty() ? fmt::format("Kept for {} in the records.", records.trainee) : where;
     records.attempt.reset();
     // A connection that is lost is made anew for the next attempt.

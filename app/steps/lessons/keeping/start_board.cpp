@@ -25,6 +25,7 @@ std::vector<simulation::GateAttempt> TestsAt(const std::string& id, const std::s
 
 std::vector<std::string> HashesOf(const std::vector<Exercise>& exercises) {
   std::vector<std::string> hashes;
+  hashes.reserve(exercises.size());
   for (const Exercise& exercise : exercises) hashes.push_back(HashOf(exercise));
   return hashes;
 }
