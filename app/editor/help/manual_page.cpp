@@ -28,11 +28,16 @@ std::string Plain(std::string line) {
 std::vector<std::string> CellsOf(const std::string& row) {
   std::vector<std::string> cells;
   std::string cell;
+  const auto without_spaces = [](const std::string& text) {
+    const std::size_t first = text.find_first_not_of(' ');
+    return first == std::string::npos ? std::string()
+                                      : text.substr(first, text.find_last_not_of(' ') + 1 - first);
+  };
   for (std::size_t i = 1; i < row.size(); ++i) {
     if (row[i] == '\\' && i + 1 < row.size() && row[i + 1] == '|') {
       cell += row[++i];
     } else if (row[i] == '|') {
-      cells.push_back(Plain(cell));
+      cells.push_back(Plain(without_spaces(cell)));
       cell.clear();
     } else {
       cell += row[i];
