@@ -104,12 +104,14 @@ void FitAxes(Plot& plot) {
       most = {std::max(most.x, point.x), std::max(most.y, point.y)};
     }
   if (least.x > most.x) return;
-  const double room =
-      0.05 * std::max(1e-9, static_cast<double>(most.y) - static_cast<double>(least.y));
+  const double spread = static_cast<double>(most.y) - static_cast<double>(least.y);
+  const double below = 0.05 * std::max(1e-9, spread);
+  // A single value has no spread; its dot is not to be cut off either.
+  const double above = 0.05 * std::max(1e-9, static_cast<double>(most.y) - plot.low);
   plot.left = std::min<double>(plot.left, least.x);
   plot.right = std::max<double>(plot.right, most.x);
-  plot.low = std::min(plot.low, least.y - room);
-  plot.high = std::max(plot.high, most.y + room);
+  plot.low = std::min(plot.low, least.y - below);
+  plot.high = std::max(plot.high, most.y + above);
 }
 
 std::optional<double> DrawPlot(Ui& ui, const Plot& plot, const Area& area) {

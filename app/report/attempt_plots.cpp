@@ -35,17 +35,29 @@ const ToolFrame& ToolOf(const AttemptFrame& frame, DeviceRole role) {
   return frame.tool[Index(role)];
 }
 
+std::string StepWords(const StepRow& step) {
+  const std::string& outcome = step.outcome;
+  return fmt::format("{}: {}", step.step,
+                     outcome == "pending"   ? "not begun"
+                     : outcome == "running" ? "not done"
+                                            : outcome);
+}
+
 }  // namespace
 
 std::string StepsSvg(const AttemptReport& report) {
-  constexpr double kLeft = 170, kRight = 20, kRow = 24, kTop = 8;
+  constexpr double kRight = 20, kRow = 24, kTop = 8, kLetter = 6.6;
   const AttemptRecord& attempt = report.attempt;
+  double left = 170;  // room for the longest words
+  for (const StepRow& step : attempt.steps)
+    left = std::max(left, 16 + kLetter * static_cast<double>(StepWords(step).size()));
+  left = std::min(left, 0.5 * kWidth);
   double end = attempt.duration.value_or(0);
   for (const StepRow& step : attempt.steps) end = std::max(end, step.ended.value_or(step.began));
   for (const EventRow& event : attempt.events) end = std::max(end, event.t);
   if (attempt.steps.empty() || !(end > 0)) return "";
   const double height = kTop + kRow * static_cast<double>(attempt.steps.size()) + 46;
-  const auto at = [&](double t) { return kLeft + t / end * (kWidth - kLeft - kRight); };
+  const auto at = [&](double t) { return left + t / end * (kWidth - left - kRight); };
   std::string svg = SvgHead(kWidth, height);
   const auto text = [&](double x, double y, const char* anchor, const std::string& words) {
     svg += SvgText(x, y, 11, anchor, "#111111", words);
@@ -56,13 +68,11 @@ std::string StepsSvg(const AttemptReport& report) {
     const bool is_done = step.outcome == "done";
     const double stop = step.ended.value_or(end);
     row_of[step.step] = y;
+    text(left - 8, y + 14, "end", StepWords(step));
     if (step.outcome == "pending") {  // it was never reached
-      text(kLeft - 8, y + 14, "end", fmt::format("{}: not begun", step.step));
       y += kRow;
       continue;
     }
-    text(kLeft - 8, y + 14, "end",
-         fmt::format("{}: {}", step.step, step.outcome == "running" ? "not done" : step.outcome));
     // A failed step is hatched, so that it is told apart in black and white.
     svg += fmt::format(
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"14\" fill=\"{}\" "
@@ -81,14 +91,14 @@ std::string StepsSvg(const AttemptReport& report) {
       svg +=
           fmt::format("<path d=\"M{:.1f} {:.1f}l4 -8h-8z\" fill=\"#a00000\"/>\n", at(event.t), top);
     }
-  svg += fmt::format("<path d=\"M{:g} {:.1f}H{:g}\" stroke=\"#222222\"/>\n", kLeft, y + 4,
+  svg += fmt::format("<path d=\"M{:g} {:.1f}H{:g}\" stroke=\"#222222\"/>\n", left, y + 4,
                      kWidth - kRight);
-  const double step = end > 240 ? 60 : end > 80 ? 20 : end > 30 ? 10 : 5;
+  const double step = end > 240 ? 60 : end > 80 ? 20 : end > 30 ? 10 : end > 10 ? 5 : 1;
   for (double t = 0; t <= end; t += step) {
     svg += fmt::format("<path d=\"M{:.1f} {:.1f}v5\" stroke=\"#222222\"/>\n", at(t), y + 4);
     text(at(t), y + 21, "middle", fmt::format("{:g}", t));
   }
-  text(0.5 * (kLeft + kWidth - kRight), y + 37, "middle", "Time, s; triangles: faults");
+  text(0.5 * (left + kWidth - kRight), y + 37, "middle", "Time, s; triangles: faults");
   return svg + "</svg>\n";
 }
 
