@@ -192,7 +192,8 @@ class Editor {
     if (options_.practice && !options_.lesson)
       BeginPractice();
     else
-      state_.message = options_.notice.empty() ? "F1 or ? opens the manual at this page." : options_.notice;
+      state_.message =
+          options_.notice.empty() ? "F1 or ? opens the manual at this page." : options_.notice;
     OpenLessons(state_, RecordsFor(options_));
     if (const auto& lesson = options_.lesson)
       OpenBriefing(state_, lesson->exercise, lesson->trainee, lesson->is_test);

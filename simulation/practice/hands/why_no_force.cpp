@@ -5,7 +5,8 @@ namespace arthro::simulation {
 const char* WhyNoForce(const ForceSituation& situation) noexcept {
   // Reasons in the hardware.
   if (situation.kind == HandKind::kMouse)
-    return "No device holds this hand: mouse and keys do. Rig in the step Practice, or --rig, names one.";
+    return "No device holds this hand: mouse and keys do. Rig in the step Practice, or --rig, "
+           "names one.";
   if (situation.kind == HandKind::kRecorded)
     return "A recording holds this hand; nobody is there to be pushed.";
   switch (situation.status.state) {
