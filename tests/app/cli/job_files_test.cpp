@@ -216,10 +216,10 @@ const std::map<std::string, std::string> kOutputs = {
 
 // Flags of text that name no file that is written.
 const std::set<std::string> kNoOutput = {
-    "check SCENE",     "bench micro --only", "bench tissue --only",
-    "--options",       "--layout",           "--model",
-    "--openhaptics",   "--disturb",          "reach --suggest",
-    "devices --serial"};
+    "check SCENE",      "bench micro --only", "bench tissue --only",
+    "--options",        "--layout",           "--model",
+    "--openhaptics",    "--disturb",          "reach --suggest",
+    "devices --serial", "help PAGE"};
 
 // "job" and "job sub" of the program's own help.
 std::vector<std::string> AllJobs() {
