@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@ namespace arthro::test {
 struct ManualText {
   std::string name;  // "depth"
   std::string text;
+  friend void PrintTo(const ManualText& page, std::ostream* out) { *out << page.name; }
 };
 // Every page, in the order of their names.
 std::vector<ManualText> ManualTexts(const std::filesystem::path& root);
