@@ -310,13 +310,15 @@ void DeformableBody::RunSideWork() noexcept {
   if (impl_->side_work == SideWork::kFactor) return impl_->solver.RunRefresh();
   try {
     impl_->prepared = impl_->PreparedCut();
-  } catch (const std::exception&) {  // no memory: tried again at the cut, and reported
+  } catch (const std::exception&) {
+    impl_->prepared.reset();
   }
 }
 
 void DeformableBody::TakeSideWork() noexcept {
   if (impl_->side_work == SideWork::kFactor) impl_->solver.TakeRefreshed();
   if (impl_->cut == nullptr) impl_->cut = std::move(impl_->prepared);
+  if (impl_->side_work == SideWork::kPreparation) impl_->could_not_prepare = impl_->cut == nullptr;
   impl_->side_work = SideWork::kNone;
 }
 

@@ -197,13 +197,14 @@ bool DeformableBody::Impl::IsAboutToCut(const PlacedTool& tool) const noexcept {
 }
 
 void DeformableBody::Impl::WantPreparation() noexcept {
-  if (!spec.is_cuttable || cut != nullptr || side_work == SideWork::kPreparation) return;
+  if (!spec.is_cuttable || cut != nullptr || could_not_prepare) return;
+  if (side_work == SideWork::kPreparation) return;
   wants_preparation = std::any_of(placed.begin(), placed.begin() + tool_count,
                                   [&](const PlacedTool& tool) { return IsAboutToCut(tool); });
 }
 
 bool DeformableBody::Impl::AwaitsPreparation(const PlacedTool& tool) const noexcept {
-  return cut == nullptr && finish_side_work && IsAboutToCut(tool);
+  return cut == nullptr && !could_not_prepare && finish_side_work && IsAboutToCut(tool);
 }
 
 bool DeformableBody::Impl::CutWithTools(std::span<const WorldTool> tools, double dt) {

@@ -110,6 +110,7 @@ struct DeformableBody::Impl {
   std::unique_ptr<BodyShape> shape;
   std::unique_ptr<CutState> cut;       // null: whole
   std::unique_ptr<CutState> prepared;  // made beside the steps
+  bool could_not_prepare = false;      // no memory: the cut tries it again, and reports
   CutReport taken;
   ImplicitSolver solver;
   ObstacleContactOptions on_obstacle;

@@ -196,6 +196,31 @@ TEST(BodyCut, ToolThatArrivesCuttingWaitsForThePreparation) {
   EXPECT_EQ(body.cut_report().cuts, 1);
 }
 
+// Nothing waits for ever where there was no memory to prepare: the cut tries it itself.
+// itself.
+TEST(BodyCut, CutPreparesABodyThatCouldNotBePreparedBefore) {
+  BodySpec spec = test::SlabBody();
+  spec.is_cuttable = true;
+  DeformableBody body(spec, {});
+  body.SetBeforeCut([] {});
+  ToolCoupling coupling;
+  const auto step = [&](double opening) {
+    const WorldTool tool = PunchAt(spec, 2e-3, opening);
+    coupling = {};
+    return body.Step({&tool, 1}, nullptr, test::kFrame, {&coupling, 1});
+  };
+  step(1.0);
+  body.BeginSideWork();
+  {
+    const test::NoMemory here;
+    body.RunSideWork();
+  }
+  body.TakeSideWork();
+  EXPECT_FALSE(step(1.0).was_cut);
+  EXPECT_FALSE(body.WantsSideWork());
+  EXPECT_TRUE(step(0.0).was_cut);
+}
+
 // The other thread works on the old body until it returns it.
 TEST(BodyCut, BiteWithoutMemoryRestoresTheTissueAfterARefresh) {
   BodySpec spec = test::SlabBody();
