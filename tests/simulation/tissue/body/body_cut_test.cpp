@@ -197,7 +197,6 @@ TEST(BodyCut, ToolThatArrivesCuttingWaitsForThePreparation) {
 }
 
 // Nothing waits for ever where there was no memory to prepare: the cut tries it itself.
-// itself.
 TEST(BodyCut, CutPreparesABodyThatCouldNotBePreparedBefore) {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
