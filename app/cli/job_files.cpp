@@ -9,7 +9,7 @@
 #include "app/cli/output_check.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
-#include "simulation/core/leftovers.h"
+#include "simulation/core/folders/leftovers.h"
 
 namespace arthro::app {
 namespace {

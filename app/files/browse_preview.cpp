@@ -9,7 +9,7 @@
 #include "app/files/start_page.h"
 #include "app/steps/panorama/board/board_picture.h"
 #include "authoring/footage/footage.h"
-#include "authoring/project/file_ending.h"
+#include "authoring/project/files/file_ending.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/files/archive_io.h"
 #include "simulation/scene/image_io.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/platform/file_browser_model.h"
-#include "authoring/project/scene_versions.h"
+#include "authoring/project/files/scene_versions.h"
 #include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro::app {

@@ -1,6 +1,6 @@
 #include "app/state/scratch_folder.h"
 
-#include "authoring/project/asset_writer.h"
+#include "authoring/project/files/asset_writer.h"
 
 namespace arthro::app {
 

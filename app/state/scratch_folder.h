@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "simulation/core/temporary_folder.h"
+#include "simulation/core/folders/temporary_folder.h"
 
 namespace arthro::app {
 

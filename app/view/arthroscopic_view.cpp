@@ -17,9 +17,9 @@
 
 #include "app/view/backdrop/backdrop_prop.h"
 #include "app/view/disturbances/lens_pass.h"
-#include "app/view/drawing/context_render_window.h"
 #include "app/view/drawing/lens_model.h"
 #include "app/view/drawing/occlusion_pass.h"
+#include "app/view/drawing/passes/context_render_window.h"
 #include "app/view/drawing/srgb.h"
 #include "app/view/drawing/strand_model.h"
 #include "app/view/exposure/camera_pass.h"

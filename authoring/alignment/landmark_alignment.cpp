@@ -12,7 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "simulation/core/box3.h"
+#include "simulation/core/geometry/box3.h"
 
 namespace arthro::authoring {
 namespace {

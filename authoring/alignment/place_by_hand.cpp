@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "simulation/core/box3.h"
+#include "simulation/core/geometry/box3.h"
 
 namespace arthro::authoring {
 namespace {

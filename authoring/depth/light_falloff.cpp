@@ -8,8 +8,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "authoring/depth/guided_smoothing.h"
 #include "authoring/depth/highlights.h"
+#include "authoring/depth/noise/guided_smoothing.h"
 
 namespace arthro::authoring {
 namespace {

@@ -10,7 +10,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "authoring/project/free_tissue_name.h"
-#include "simulation/core/file_name.h"
+#include "simulation/core/folders/file_name.h"
 #include "simulation/scene/backdrop/hidden_share.h"
 #include "simulation/scene/backdrop/relief_range.h"
 

@@ -6,7 +6,7 @@
 #include "authoring/depth/strokes/depth_strokes_io.h"
 #include "authoring/project/document_extensions.h"
 #include "authoring/project/every_instrument.h"
-#include "authoring/project/file_ending.h"
+#include "authoring/project/files/file_ending.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"

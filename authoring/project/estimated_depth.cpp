@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "authoring/depth/depth_filter.h"
-#include "authoring/depth/depth_noise.h"
+#include "authoring/depth/noise/depth_noise.h"
 #include "authoring/depth/strokes/mend_depth.h"
 
 namespace arthro::authoring {

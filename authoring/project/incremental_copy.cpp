@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "authoring/project/asset_writer.h"
 #include "authoring/project/document_extensions.h"
 #include "authoring/project/document_io.h"
-#include "authoring/project/written_files.h"
+#include "authoring/project/files/asset_writer.h"
+#include "authoring/project/files/written_files.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"

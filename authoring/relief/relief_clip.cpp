@@ -10,7 +10,7 @@
 #include "authoring/footage/footage.h"
 #include "authoring/footage/frame_look.h"
 #include "authoring/panorama/clip/footage_lens.h"
-#include "authoring/panorama/graph/parallel.h"
+#include "authoring/panorama/graph/links/parallel.h"
 #include "authoring/panorama/preparation/clip_look.h"
 #include "authoring/panorama/preparation/frame_masks.h"
 #include "authoring/panorama/preparation/prepare.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "simulation/core/box3.h"
+#include "simulation/core/geometry/box3.h"
 #include "simulation/core/units.h"
 
 namespace arthro::authoring {

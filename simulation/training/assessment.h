@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/practice/replay.h"
+#include "simulation/practice/replay/replay.h"
 #include "simulation/training/metrics/metrics.h"
 
 namespace arthro::simulation {

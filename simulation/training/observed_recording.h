@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/practice/replay.h"
+#include "simulation/practice/replay/replay.h"
 #include "simulation/scene/exercise/exercise.h"
 #include "simulation/training/observe/attempt_frame.h"
 

@@ -14,7 +14,7 @@
 #include "app/cli/jobs.h"
 #include "authoring/depth/depth_filter.h"
 #include "authoring/depth/depth_import.h"
-#include "authoring/depth/depth_noise.h"
+#include "authoring/depth/noise/depth_noise.h"
 #include "authoring/depth/strokes/depth_strokes_io.h"
 #include "authoring/depth/strokes/mend_depth.h"
 #include "authoring/project/document_io.h"

@@ -26,7 +26,7 @@
 #include "authoring/tissue/tetrahedra/mesh_budget.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
-#include "simulation/core/temporary_folder.h"
+#include "simulation/core/folders/temporary_folder.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/mesh/mesh_io.h"
 

@@ -18,7 +18,7 @@
 #include "authoring/footage/footage.h"
 #include "authoring/lens/rectifier.h"
 #include "simulation/core/error.h"
-#include "simulation/core/partial_folder.h"
+#include "simulation/core/folders/partial_folder.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/json/lens_io.h"
 

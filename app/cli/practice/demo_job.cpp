@@ -22,9 +22,9 @@
 #include "app/platform/resource_folder.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/folders/partial_folder.h"
 #include "simulation/core/json_text.h"
-#include "simulation/core/partial_folder.h"
-#include "simulation/practice/replay.h"
+#include "simulation/practice/replay/replay.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
 

@@ -21,9 +21,9 @@
 #include "app/recording/unfinished_film.h"
 #include "app/recording/video_file.h"
 #include "simulation/core/atomic_file.h"
-#include "simulation/core/partial_folder.h"
+#include "simulation/core/folders/partial_folder.h"
 #include "simulation/device/log/log_replay.h"
-#include "simulation/practice/replay.h"
+#include "simulation/practice/replay/replay.h"
 #include "simulation/scene/files/scene_io.h"
 
 namespace arthro::app {

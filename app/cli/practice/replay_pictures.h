@@ -12,7 +12,7 @@
 #include "app/recording/frame_shape.h"
 #include "app/view/live_tissues.h"
 #include "app/view/still_picture.h"
-#include "simulation/practice/replay.h"
+#include "simulation/practice/replay/replay.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scope/camera_head.h"
 

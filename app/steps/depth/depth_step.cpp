@@ -7,8 +7,8 @@
 
 #include "app/state/edits.h"
 #include "authoring/depth/depth_filter.h"
-#include "authoring/depth/depth_noise.h"
 #include "authoring/depth/depth_preview.h"
+#include "authoring/depth/noise/depth_noise.h"
 #include "authoring/depth/strokes/mend_depth.h"
 #include "simulation/core/same_options.h"
 #include "simulation/core/units.h"

@@ -12,7 +12,7 @@
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/models/model_in_scene.h"
 #include "simulation/core/error.h"
-#include "simulation/core/file_name.h"
+#include "simulation/core/folders/file_name.h"
 #include "simulation/scene/solids/solid_io.h"
 #include "simulation/scope/arthroscope.h"
 

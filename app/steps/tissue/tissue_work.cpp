@@ -14,7 +14,7 @@
 #include "authoring/models/model_in_scene.h"
 #include "authoring/tissue/likely_unit.h"
 #include "authoring/tissue/tetrahedra/mesh_budget.h"
-#include "simulation/core/file_name.h"
+#include "simulation/core/folders/file_name.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/backdrop/hidden_share.h"
 #include "simulation/scene/mesh/mesh_io.h"

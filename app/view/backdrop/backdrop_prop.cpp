@@ -16,7 +16,7 @@
 #include <vtk_glew.h>
 
 #include "app/view/backdrop/colour_outlines.h"
-#include "app/view/drawing/shader_text.h"
+#include "app/view/drawing/passes/shader_text.h"
 #include "app/view/exposure/automatic_gain.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/medium.h"

@@ -5,7 +5,7 @@
 #include <vtkShaderProgram.h>
 #include <vtk_glew.h>
 
-#include "app/view/drawing/shader_text.h"
+#include "app/view/drawing/passes/shader_text.h"
 
 namespace arthro::app {
 namespace {

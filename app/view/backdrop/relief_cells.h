@@ -12,7 +12,7 @@
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkTextureObject.h>
 
-#include "app/view/drawing/shader_pass.h"
+#include "app/view/drawing/passes/shader_pass.h"
 
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;

@@ -10,8 +10,8 @@
 
 #include "app/view/disturbances/drifting_bits.h"
 #include "app/view/disturbances/murk_field.h"
-#include "app/view/drawing/pass_state.h"
-#include "app/view/drawing/shader_text.h"
+#include "app/view/drawing/passes/pass_state.h"
+#include "app/view/drawing/passes/shader_text.h"
 
 namespace arthro::app {
 namespace {

@@ -13,9 +13,9 @@
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkTextureObject.h>
 
+#include "app/view/drawing/passes/render_target.h"
+#include "app/view/drawing/passes/shader_pass.h"
 #include "app/view/drawing/picture.h"
-#include "app/view/drawing/render_target.h"
-#include "app/view/drawing/shader_pass.h"
 
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;

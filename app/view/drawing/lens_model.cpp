@@ -18,9 +18,9 @@
 #include <vtkShaderProperty.h>
 #include <vtkUniforms.h>
 
-#include "app/view/drawing/shader_text.h"
+#include "app/view/drawing/passes/shader_text.h"
+#include "app/view/drawing/passes/steady_inputs.h"
 #include "app/view/drawing/srgb.h"
-#include "app/view/drawing/steady_inputs.h"
 #include "simulation/scene/mesh/vertex_normals.h"
 
 namespace arthro::app {

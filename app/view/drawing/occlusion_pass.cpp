@@ -8,8 +8,8 @@
 #include <vtkShaderProgram.h>
 #include <vtk_glew.h>
 
-#include "app/view/drawing/pass_state.h"
-#include "app/view/drawing/shader_text.h"
+#include "app/view/drawing/passes/pass_state.h"
+#include "app/view/drawing/passes/shader_text.h"
 
 namespace arthro::app {
 namespace {

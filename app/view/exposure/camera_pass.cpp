@@ -10,8 +10,8 @@
 #include <vtk_glew.h>
 
 #include "app/view/drawing/grain.h"
-#include "app/view/drawing/pass_state.h"
-#include "app/view/drawing/shader_text.h"
+#include "app/view/drawing/passes/pass_state.h"
+#include "app/view/drawing/passes/shader_text.h"
 
 namespace arthro::app {
 namespace {

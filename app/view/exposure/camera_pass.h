@@ -12,9 +12,9 @@
 #include <vtkRenderbuffer.h>
 
 #include "app/view/drawing/lens_shade.h"
+#include "app/view/drawing/passes/render_target.h"
+#include "app/view/drawing/passes/shader_pass.h"
 #include "app/view/drawing/picture.h"
-#include "app/view/drawing/render_target.h"
-#include "app/view/drawing/shader_pass.h"
 #include "app/view/exposure/camera_exposure.h"
 
 class vtkOpenGLRenderWindow;

@@ -18,7 +18,7 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
-#include "app/view/drawing/context_render_window.h"
+#include "app/view/drawing/passes/context_render_window.h"
 #include "app/view/overview/overview.h"
 #include "app/view/overview/overview_parts.h"
 

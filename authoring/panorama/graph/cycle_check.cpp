@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "authoring/panorama/graph/pair_graph.h"
+#include "authoring/panorama/graph/links/pair_graph.h"
 
 namespace arthro::authoring {
 namespace {

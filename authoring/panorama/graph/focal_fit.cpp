@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "authoring/panorama/graph/pair_graph.h"
+#include "authoring/panorama/graph/links/pair_graph.h"
 
 namespace arthro::authoring {
 namespace {

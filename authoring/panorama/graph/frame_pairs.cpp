@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "authoring/panorama/graph/parallel.h"
+#include "authoring/panorama/graph/links/parallel.h"
 #include "authoring/panorama/pairs/coarse_align.h"
 #include "authoring/panorama/pairs/direct_align.h"
 #include "authoring/panorama/pairs/feature_pairs.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "authoring/panorama/frames/working_frame.h"
-#include "authoring/panorama/graph/pair_book.h"
+#include "authoring/panorama/graph/links/pair_book.h"
 #include "authoring/panorama/graph/register.h"
 #include "authoring/panorama/pairs/direct_pyramid.h"
 #include "authoring/panorama/pairs/frame_features.h"

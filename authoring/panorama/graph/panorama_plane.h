@@ -7,7 +7,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "authoring/panorama/graph/frame_window.h"
+#include "authoring/panorama/graph/links/frame_window.h"
 
 namespace arthro::authoring {
 

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "authoring/panorama/graph/gap_repair.h"
-#include "authoring/panorama/graph/loop_candidates.h"
-#include "authoring/panorama/graph/pair_graph.h"
+#include "authoring/panorama/graph/links/gap_repair.h"
+#include "authoring/panorama/graph/links/loop_candidates.h"
+#include "authoring/panorama/graph/links/pair_graph.h"
 #include "authoring/panorama/graph/panorama_plane.h"
 #include "authoring/panorama/graph/refinement/uncertainty.h"
 

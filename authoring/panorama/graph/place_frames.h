@@ -10,8 +10,8 @@
 #include <opencv2/core.hpp>
 
 #include "authoring/panorama/graph/cycle_check.h"
-#include "authoring/panorama/graph/frame_window.h"
-#include "authoring/panorama/graph/pair_book.h"
+#include "authoring/panorama/graph/links/frame_window.h"
+#include "authoring/panorama/graph/links/pair_book.h"
 #include "authoring/panorama/graph/refinement/refine.h"
 #include "authoring/panorama/graph/register_options.h"
 

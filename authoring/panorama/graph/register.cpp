@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "authoring/panorama/graph/frame_pairs.h"
-#include "authoring/panorama/graph/pair_graph.h"
+#include "authoring/panorama/graph/links/pair_graph.h"
 #include "simulation/core/error.h"
 #include "simulation/core/process_cost.h"
 

@@ -11,7 +11,7 @@
 #include "authoring/panorama/clip/panorama_report.h"
 #include "authoring/panorama/clip/prepared_clip.h"
 #include "authoring/panorama/frames/placed_frame.h"
-#include "authoring/panorama/graph/frame_window.h"
+#include "authoring/panorama/graph/links/frame_window.h"
 #include "authoring/panorama/graph/register_options.h"
 #include "authoring/panorama/ties/frame_tie.h"
 #include "simulation/core/progress.h"

@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "simulation/core/triangle.h"
+#include "simulation/core/geometry/triangle.h"
 #include "simulation/core/units.h"
 
 namespace arthro::authoring {

@@ -3,7 +3,7 @@
 
 #include "authoring/relief/joined_scale.h"
 #include "authoring/relief/known_length.h"
-#include "authoring/relief/motion/bundle.h"
+#include "authoring/relief/motion/bundle/bundle.h"
 #include "authoring/relief/surface/sweep.h"
 #include "simulation/scene/lens.h"
 

@@ -15,7 +15,7 @@
 #include "authoring/relief/make/measure_relief.h"
 #include "authoring/relief/make/relief_picture.h"
 #include "authoring/relief/make/verdict.h"
-#include "authoring/relief/motion/pose_covariance.h"
+#include "authoring/relief/motion/bundle/pose_covariance.h"
 #include "simulation/core/error.h"
 #include "simulation/core/option_fields.h"
 #include "simulation/core/process_cost.h"

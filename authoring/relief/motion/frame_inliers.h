@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "authoring/relief/motion/lens_profile.h"
+#include "authoring/relief/motion/bundle/lens_profile.h"
+#include "authoring/relief/motion/bundle/tracks.h"
 #include "authoring/relief/motion/motion.h"
-#include "authoring/relief/motion/tracks.h"
 
 namespace arthro::authoring {
 

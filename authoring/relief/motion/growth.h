@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "authoring/relief/motion/bundle.h"
-#include "authoring/relief/motion/lens_profile.h"
+#include "authoring/relief/motion/bundle/bundle.h"
+#include "authoring/relief/motion/bundle/lens_profile.h"
+#include "authoring/relief/motion/bundle/tracks.h"
 #include "authoring/relief/motion/pair_model.h"
-#include "authoring/relief/motion/tracks.h"
 #include "simulation/core/progress.h"
 
 namespace arthro::authoring {

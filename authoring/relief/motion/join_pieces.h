@@ -5,9 +5,9 @@
 #include <atomic>
 #include <vector>
 
-#include "authoring/relief/motion/bundle.h"
-#include "authoring/relief/motion/lens_profile.h"
-#include "authoring/relief/motion/tracks.h"
+#include "authoring/relief/motion/bundle/bundle.h"
+#include "authoring/relief/motion/bundle/lens_profile.h"
+#include "authoring/relief/motion/bundle/tracks.h"
 
 namespace arthro::authoring {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "authoring/relief/motion/bundle.h"
+#include "authoring/relief/motion/bundle/bundle.h"
+#include "authoring/relief/motion/bundle/lens_profile.h"
+#include "authoring/relief/motion/bundle/tracks.h"
 #include "authoring/relief/motion/growth.h"
-#include "authoring/relief/motion/lens_profile.h"
-#include "authoring/relief/motion/tracks.h"
 #include "simulation/core/progress.h"
 
 namespace arthro::authoring {

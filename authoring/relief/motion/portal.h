@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "authoring/relief/motion/bundle.h"
+#include "authoring/relief/motion/bundle/bundle.h"
 
 namespace arthro::authoring {
 

@@ -5,8 +5,8 @@
 #include <atomic>
 #include <vector>
 
+#include "authoring/relief/motion/bundle/tracks.h"
 #include "authoring/relief/motion/motion.h"
-#include "authoring/relief/motion/tracks.h"
 #include "simulation/scene/lens.h"
 
 namespace arthro::authoring {

@@ -8,7 +8,7 @@
 
 #include "authoring/panorama/compose/frame_cells.h"
 #include "authoring/panorama/compose/light_model.h"
-#include "authoring/panorama/graph/parallel.h"
+#include "authoring/panorama/graph/links/parallel.h"
 #include "authoring/relief/median.h"
 #include "authoring/relief/surface/relief_layout.h"
 #include "simulation/scene/relief_origin.h"

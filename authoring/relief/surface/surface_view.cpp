@@ -4,7 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "authoring/panorama/graph/parallel.h"
+#include "authoring/panorama/graph/links/parallel.h"
 
 namespace arthro::authoring {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "authoring/panorama/graph/parallel.h"
+#include "authoring/panorama/graph/links/parallel.h"
 #include "authoring/relief/surface/semi_global.h"
 #include "authoring/relief/surface/surface_view.h"
 #include "simulation/core/error.h"

@@ -9,8 +9,8 @@
 #include <opencv2/core.hpp>
 
 #include "authoring/panorama/frames/working_frame.h"
-#include "authoring/relief/motion/bundle.h"
-#include "authoring/relief/motion/lens_profile.h"
+#include "authoring/relief/motion/bundle/bundle.h"
+#include "authoring/relief/motion/bundle/lens_profile.h"
 #include "authoring/relief/relief_options.h"
 #include "simulation/core/progress.h"
 #include "simulation/scene/projection.h"

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "authoring/tissue/surface/time_limit.h"
-#include "simulation/core/box_tree.h"
+#include "simulation/core/geometry/box_tree.h"
 #include "simulation/scene/mesh/surface_finder.h"
 
 // TetGen's library provides Shewchuk's predicates here; the mesher itself runs in a process of its

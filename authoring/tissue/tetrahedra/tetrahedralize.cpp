@@ -17,8 +17,8 @@
 #include "authoring/tissue/tetrahedra/child_process.h"
 #include "authoring/tissue/tetrahedra/tetgen_worker.h"
 #include "simulation/core/error.h"
+#include "simulation/core/folders/temporary_folder.h"
 #include "simulation/core/options_json.h"
-#include "simulation/core/temporary_folder.h"
 #include "simulation/core/units.h"
 
 namespace arthro::authoring {

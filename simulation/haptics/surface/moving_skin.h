@@ -7,9 +7,9 @@
 
 #include <glm/vec3.hpp>
 
-#include "simulation/core/box_tree.h"
-#include "simulation/core/segment3.h"
-#include "simulation/core/triangle.h"
+#include "simulation/core/geometry/box_tree.h"
+#include "simulation/core/geometry/segment3.h"
+#include "simulation/core/geometry/triangle.h"
 #include "simulation/haptics/surface/swept_surface.h"
 #include "simulation/scene/mesh/surface_mesh.h"
 

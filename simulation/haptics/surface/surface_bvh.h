@@ -12,7 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/core/frames.h"
-#include "simulation/core/triangle.h"
+#include "simulation/core/geometry/triangle.h"
 #include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro::simulation {

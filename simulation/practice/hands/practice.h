@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "simulation/practice/hands/hands.h"
-#include "simulation/practice/option_numbers.h"
+#include "simulation/practice/replay/option_numbers.h"
 #include "simulation/practice/scope_eye.h"
 #include "simulation/practice/scripted_device.h"
 #include "simulation/practice/servo_loop.h"

@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "simulation/core/segment3.h"
+#include "simulation/core/geometry/segment3.h"
 #include "simulation/haptics/surface/surface_bvh.h"
 
 namespace arthro::simulation {

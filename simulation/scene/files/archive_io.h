@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "simulation/core/error.h"
-#include "simulation/core/temporary_folder.h"
+#include "simulation/core/folders/temporary_folder.h"
 
 namespace arthro {
 

@@ -7,9 +7,9 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/folders/leftovers.h"
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
-#include "simulation/core/leftovers.h"
 #include "simulation/scene/backdrop/steep_noise.h"
 #include "simulation/scene/files/archive_io.h"
 #include "simulation/scene/files/scene_files.h"

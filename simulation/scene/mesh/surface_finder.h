@@ -6,8 +6,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "simulation/core/box_tree.h"
-#include "simulation/core/triangle.h"
+#include "simulation/core/geometry/box_tree.h"
+#include "simulation/core/geometry/triangle.h"
 #include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro {

@@ -2,7 +2,7 @@
 // solid without end has infinite sides; one whose parts cannot meet has an empty box. m.
 #pragma once
 
-#include "simulation/core/box3.h"
+#include "simulation/core/geometry/box3.h"
 #include "simulation/scene/solids/solid.h"
 
 namespace arthro {

@@ -14,7 +14,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "simulation/core/box3.h"
+#include "simulation/core/geometry/box3.h"
 #include "simulation/scene/solids/solid.h"
 
 namespace arthro {

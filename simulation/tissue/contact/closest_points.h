@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "simulation/core/triangle.h"
+#include "simulation/core/geometry/triangle.h"
 
 namespace arthro::simulation {
 

@@ -10,7 +10,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "simulation/core/box_tree.h"
+#include "simulation/core/geometry/box_tree.h"
 #include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/scene/mesh/tet_mesh.h"
 

@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-#include "simulation/core/box_tree.h"
+#include "simulation/core/geometry/box_tree.h"
 #include "simulation/core/options.h"
 #include "simulation/tissue/contact/closest_points.h"
 #include "simulation/tissue/contact/contact_point.h"

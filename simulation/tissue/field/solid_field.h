@@ -21,7 +21,7 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
-#include "simulation/core/box3.h"
+#include "simulation/core/geometry/box3.h"
 #include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro::simulation {

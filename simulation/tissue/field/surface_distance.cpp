@@ -13,7 +13,7 @@
 
 #include "simulation/core/error.h"
 #include "simulation/core/finite.h"
-#include "simulation/core/triangle.h"
+#include "simulation/core/geometry/triangle.h"
 
 namespace arthro::simulation {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "simulation/core/segment3.h"
+#include "simulation/core/geometry/segment3.h"
 #include "simulation/haptics/relief/depth_field.h"
 #include "simulation/practice/scope_eye.h"
 #include "simulation/scope/window_lens.h"

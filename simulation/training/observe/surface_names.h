@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/practice/replay.h"
+#include "simulation/practice/replay/replay.h"
 
 namespace arthro::simulation {
 

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "simulation/core/segment3.h"
+#include "simulation/core/geometry/segment3.h"
 #include "simulation/practice/cut_skin.h"
 #include "simulation/scene/mesh/surface_finder.h"
 #include "simulation/scope/rod_pose.h"

@@ -1,4 +1,4 @@
-#include "app/view/drawing/shader_text.h"
+#include "app/view/drawing/passes/shader_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/view/drawing/steady_inputs.h"
+#include "app/view/drawing/passes/steady_inputs.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "app/view/live_tissues.h"
 #include "app/view/settling.h"
-#include "simulation/practice/replay.h"
+#include "simulation/practice/replay/replay.h"
 #include "simulation/scene/files/scene_io.h"
 #include "tests/app/view/view_scene.h"
 #include "tests/support/build_paths.h"

@@ -9,7 +9,7 @@
 
 #include "authoring/depth/depth_filter.h"
 #include "authoring/depth/depth_preview.h"
-#include "authoring/depth/guided_smoothing.h"
+#include "authoring/depth/noise/guided_smoothing.h"
 #include "simulation/core/error.h"
 #include "tests/support/depth_score.h"
 #include "tests/support/knee_picture.h"

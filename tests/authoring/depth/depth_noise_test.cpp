@@ -1,5 +1,5 @@
 // Noise that a relief from brightness states, against noise of known size.
-#include "authoring/depth/depth_noise.h"
+#include "authoring/depth/noise/depth_noise.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "authoring/project/document_io.h"
-#include "authoring/project/written_files.h"
+#include "authoring/project/files/written_files.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/files/archive_io.h"

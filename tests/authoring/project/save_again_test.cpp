@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "authoring/project/document_io.h"
+#include "authoring/project/files/written_files.h"
 #include "authoring/project/history.h"
-#include "authoring/project/written_files.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/files/scene_io.h"

@@ -1,5 +1,5 @@
 // Backups of the last saves, and snapshots.
-#include "authoring/project/scene_versions.h"
+#include "authoring/project/files/scene_versions.h"
 
 #include <set>
 

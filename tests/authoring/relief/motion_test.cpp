@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "authoring/relief/make/verdict.h"
-#include "authoring/relief/motion/lens_profile.h"
+#include "authoring/relief/motion/bundle/lens_profile.h"
 #include "authoring/relief/motion/portal.h"
 #include "tests/support/relief/cavity_clip.h"
 

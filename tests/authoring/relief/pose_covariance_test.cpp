@@ -1,5 +1,5 @@
 // Standard deviations of poses against the scatter of poses from tracks with new noise each time.
-#include "authoring/relief/motion/pose_covariance.h"
+#include "authoring/relief/motion/bundle/pose_covariance.h"
 
 #include <cmath>
 #include <random>

@@ -1,4 +1,4 @@
-#include "simulation/core/file_name.h"
+#include "simulation/core/folders/file_name.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "simulation/core/leftovers.h"
+#include "simulation/core/folders/leftovers.h"
 
 #include <chrono>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "simulation/core/partial_folder.h"
+#include "simulation/core/folders/partial_folder.h"
 
 #include <gtest/gtest.h>
 

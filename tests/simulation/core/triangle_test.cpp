@@ -1,4 +1,4 @@
-#include "simulation/core/triangle.h"
+#include "simulation/core/geometry/triangle.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/practice/living_tissues.h"
-#include "simulation/practice/replay.h"
+#include "simulation/practice/replay/replay.h"
 #include "simulation/practice/scripted_device.h"
 #include "simulation/scene/files/scene_io.h"
 #include "tests/support/build_paths.h"

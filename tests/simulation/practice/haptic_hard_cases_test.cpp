@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/device/plant_device.h"
-#include "simulation/practice/replay.h"
+#include "simulation/practice/replay/replay.h"
 #include "simulation/practice/servo_loop.h"
 #include "tests/simulation/practice/hand.h"
 #include "tests/support/haptics/analytic_relief.h"

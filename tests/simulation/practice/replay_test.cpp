@@ -1,4 +1,4 @@
-#include "simulation/practice/replay.h"
+#include "simulation/practice/replay/replay.h"
 
 #include <cmath>
 #include <sstream>

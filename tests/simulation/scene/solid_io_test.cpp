@@ -9,7 +9,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
-#include "simulation/core/temporary_folder.h"
+#include "simulation/core/folders/temporary_folder.h"
 #include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/scene/solids/solid_function.h"
 #include "tests/support/build_paths.h"

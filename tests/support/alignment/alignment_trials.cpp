@@ -10,7 +10,7 @@
 #include "authoring/phantom/look/tissue_caster.h"
 #include "authoring/phantom/phantom.h"
 #include "authoring/phantom/shape/cavity.h"
-#include "simulation/core/box3.h"
+#include "simulation/core/geometry/box3.h"
 #include "simulation/core/random.h"
 
 namespace arthro::test {

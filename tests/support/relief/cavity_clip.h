@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
-#include "authoring/relief/motion/bundle.h"
-#include "authoring/relief/motion/tracks.h"
+#include "authoring/relief/motion/bundle/bundle.h"
+#include "authoring/relief/motion/bundle/tracks.h"
 #include "simulation/scene/lens.h"
 
 namespace arthro::test {

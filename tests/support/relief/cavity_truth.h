@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "authoring/relief/motion/bundle.h"
+#include "authoring/relief/motion/bundle/bundle.h"
 #include "simulation/scene/lens.h"
 #include "tests/support/relief/cavity_clip.h"
 

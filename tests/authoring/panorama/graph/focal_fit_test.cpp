@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "authoring/panorama/graph/pair_graph.h"
+#include "authoring/panorama/graph/links/pair_graph.h"
 #include "tests/authoring/panorama/graph/simulated_clip.h"
 
 namespace arthro::authoring {

@@ -1,4 +1,4 @@
-#include "authoring/panorama/graph/pair_graph.h"
+#include "authoring/panorama/graph/links/pair_graph.h"
 
 #include <cmath>
 #include <random>

@@ -8,8 +8,8 @@
 #include "simulation/core/units.h"
 #include "simulation/device/log/log_replay.h"
 #include "simulation/practice/hands/practice.h"
-#include "simulation/practice/option_numbers.h"
-#include "simulation/practice/replay.h"
+#include "simulation/practice/replay/option_numbers.h"
+#include "simulation/practice/replay/replay.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
 
