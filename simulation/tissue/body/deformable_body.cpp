@@ -168,18 +168,13 @@ void DeformableBody::Impl::LeaveUnsolved(std::span<const WorldTool> tools, doubl
 void DeformableBody::Impl::AddCoupling(int tool, std::span<const ContactPoint> of_tools,
                                        std::span<const ContactResult> of_results,
                                        ToolCoupling& coupling) noexcept {
-  const bool is_touching = std::any_of(of_tools.begin(), of_tools.end(),
-                                       [tool](const ContactPoint& c) { return c.owner == tool; });
-  if (!is_touching) return;
+  const auto [normal, size] = PushOf(of_tools, of_results, tool);
+  if (normal == glm::dvec3(0.0)) return;
   const SkinContact& on_skin = shape->skin_contact;
-  glm::dvec3 push(0.0);
-  for (std::size_t i = 0; i < of_tools.size(); ++i)
-    if (of_tools[i].owner == tool) push -= of_results[i].push;
-  const double size = glm::length(push);
   const std::span<const Capsule> capsules = placed[static_cast<std::size_t>(tool)].Capsules();
-  const TouchedSkin touched{solver.ToolStiffness(tool, options.coupling_tolerance),
+  const TouchedSkin touched{solver.ToolStiffness(tool, normal, options.coupling_tolerance),
                             on_skin.Curvature(of_tools, of_results, tool),
-                            size > 0.0 ? on_skin.DepthAtRest(capsules, push / size) : 0.0};
+                            size > 0.0 ? on_skin.DepthAtRest(capsules, normal) : 0.0};
   AddContacts(of_tools, of_results, tool, touched, options.contact.stiffness,
               spec.portal_from_body.rotation, spec.tissue, coupling);
 }
@@ -229,6 +224,8 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
     return report;
   }
   dt += std::exchange(own.unsolved, 0.0);
+  if (own.side_work == SideWork::kPlan && own.finish_side_work) own.finish_side_work();
+  own.wants_plan = false;
 
   // Finds the present contacts.
   own.contacts.clear();
@@ -294,19 +291,26 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
 }
 
 bool DeformableBody::WantsSideWork() const noexcept {
-  return impl_->wants_refresh || impl_->wants_preparation;
+  return impl_->wants_plan || impl_->wants_refresh || impl_->wants_preparation;
 }
 
 void DeformableBody::BeginSideWork() {
-  impl_->side_work = impl_->wants_preparation ? SideWork::kPreparation : SideWork::kFactor;
-  impl_->wants_preparation = false;
-  if (impl_->side_work == SideWork::kPreparation) return;
+  if (std::exchange(impl_->wants_plan, false)) {
+    impl_->side_work = SideWork::kPlan;
+    return;
+  }
+  if (std::exchange(impl_->wants_preparation, false)) {
+    impl_->side_work = SideWork::kPreparation;
+    return;
+  }
+  impl_->side_work = SideWork::kFactor;
   impl_->wants_refresh = false;
   impl_->since_refresh = 0;
   impl_->solver.BeginRefresh();
 }
 
 void DeformableBody::RunSideWork() noexcept {
+  if (impl_->side_work == SideWork::kPlan) return impl_->solver.RunPlan();
   if (impl_->side_work == SideWork::kFactor) return impl_->solver.RunRefresh();
   try {
     impl_->prepared = impl_->PreparedCut();
@@ -316,13 +320,14 @@ void DeformableBody::RunSideWork() noexcept {
 }
 
 void DeformableBody::TakeSideWork() noexcept {
+  if (impl_->side_work == SideWork::kPlan) impl_->solver.TakePlan();
   if (impl_->side_work == SideWork::kFactor) impl_->solver.TakeRefreshed();
   if (impl_->cut == nullptr) impl_->cut = std::move(impl_->prepared);
   if (impl_->side_work == SideWork::kPreparation) impl_->could_not_prepare = impl_->cut == nullptr;
   impl_->side_work = SideWork::kNone;
 }
 
-void DeformableBody::SetBeforeCut(std::function<void()> finish) {
+void DeformableBody::SetFinishSideWork(std::function<void()> finish) {
   impl_->finish_side_work = std::move(finish);
 }
 

@@ -89,15 +89,16 @@ class DeformableBody {
   BodyReport Step(std::span<const WorldTool> tools, const RigidObstacle* obstacle, double dt,
                   std::span<ToolCoupling> coupling) noexcept;
 
-  // Work that another thread does between Begin and Take, beside the steps: a new factor, or the
-  // preparation of the first cut, when a cutting tool comes near. Without it the cut prepares.
+  // Work that another thread does between Begin and Take, beside the steps: the plan of the factor
+  // that a cut makes necessary, a new factor, or the preparation of the first cut, when a cutting
+  // tool comes near. Without it the step plans and the cut prepares.
   bool WantsSideWork() const noexcept;
   void BeginSideWork();
   void RunSideWork() noexcept;
   void TakeSideWork() noexcept;
-  // Sets a function that is called before a cut. It waits for work that runs elsewhere and takes
-  // it.
-  void SetBeforeCut(std::function<void()> finish);
+  // Sets a function that is called before a cut and before the plan is used. It waits for work that
+  // runs elsewhere and takes it.
+  void SetFinishSideWork(std::function<void()> finish);
 
   void Reset();  // to the untouched state: the author's cuts stay
   // Returns true after a cut ran out of memory: the body must not be shown. It becomes whole again

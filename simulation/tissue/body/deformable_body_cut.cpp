@@ -345,6 +345,7 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
                                       std::move(carved.is_fresh), field, shape->model.get());
   if (finish_side_work) finish_side_work();
   solver.Replace(shape->model, shape->fixed, from);
+  wants_plan = true;
   wants_refresh = false;
   since_refresh = 0;
   BodyState moved;

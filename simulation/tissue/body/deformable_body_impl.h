@@ -49,7 +49,7 @@ struct CutState {
   Shaver shaver{};
 };
 
-enum class SideWork { kNone, kFactor, kPreparation };
+enum class SideWork { kNone, kPlan, kFactor, kPreparation };
 
 // Tool in the body's own frame.
 struct PlacedTool {
@@ -125,7 +125,7 @@ struct DeformableBody::Impl {
   bool is_asleep = true;  // at rest until touched
   double unsolved = 0;    // s, time of a step that cut, which the next one solves with its own
   int quiet = 0, since_good = 0, since_refresh = 0;
-  bool wants_refresh = false, wants_preparation = false;
+  bool wants_plan = false, wants_refresh = false, wants_preparation = false;
   std::function<void()> finish_side_work;  // waits for work that runs elsewhere
   SideWork side_work = SideWork::kNone;    // between Begin and Take another thread may do it
   bool is_lost = false;  // a cut failed midway: restored when no thread works on it

@@ -56,21 +56,29 @@ struct TissueWorld::Impl {
     worked_on = nullptr;
   }
 
+  void BeginSideWork(DeformableBody& of) noexcept {
+    worked_on = &of;
+    work_age = 0;
+    of.BeginSideWork();
+    worker.Start([](void* body) noexcept { static_cast<DeformableBody*>(body)->RunSideWork(); },
+                 &of);
+  }
+
   // Does the work of one body at a time.
   void WorkBeside() noexcept {
     if (worked_on != nullptr) {
       if (++work_age < kSideWorkSteps) return;
       FinishSideWork();
     }
-    for (Held& held : bodies) {
-      if (!held.body.WantsSideWork()) continue;
-      worked_on = &held.body;
-      work_age = 0;
-      worked_on->BeginSideWork();
-      worker.Start([](void* body) noexcept { static_cast<DeformableBody*>(body)->RunSideWork(); },
-                   worked_on);
-      return;
-    }
+    for (Held& held : bodies)
+      if (held.body.WantsSideWork()) return BeginSideWork(held.body);
+  }
+
+  // Begins what the next step needs of a body that was cut in this one.
+  void WorkAfterCut() noexcept {
+    for (Held& held : bodies)
+      if (worked_on == nullptr && held.report.was_cut && held.body.WantsSideWork())
+        BeginSideWork(held.body);
   }
 
   struct HeldLayer {
@@ -129,7 +137,7 @@ TissueWorld::TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options
   impl_->bodies.reserve(specs.size());
   for (BodySpec& spec : specs) {
     impl_->bodies.push_back({MakeBody(std::move(spec), options), {}, 0});
-    impl_->bodies.back().body.SetBeforeCut([own = impl_.get()] { own->FinishSideWork(); });
+    impl_->bodies.back().body.SetFinishSideWork([own = impl_.get()] { own->FinishSideWork(); });
   }
   for (LayerSpec& layer : layers) impl_->layers.push_back({LayerSkin(std::move(layer)), 0});
   impl_->implicit = std::move(implicit);
@@ -153,6 +161,7 @@ void TissueWorld::Step(const Instrumentation& instrument, double dt) noexcept {
     held.report = held.body.Step({&tool, 1}, own.obstacle.get(), dt, {&coupling, 1});
     held.step_ms = ThreadCpuMs() - begin;
   }
+  own.WorkAfterCut();
   own.coupling = coupling;
   own.StepLayers(tool, instrument.press);
   own.StepImplicit(tool, dt);

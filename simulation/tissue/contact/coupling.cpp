@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -83,24 +84,37 @@ bool IsFinite(const ToolCoupling& coupling) noexcept {
   return true;
 }
 
-void AddContacts(std::span<const ContactPoint> contacts, std::span<const ContactResult> results,
-                 int owner, const TouchedSkin& skin, double spring,
-                 const glm::dquat& portal_from_body, int tissue, ToolCoupling& coupling) noexcept {
+BodyPush PushOf(std::span<const ContactPoint> contacts, std::span<const ContactResult> results,
+                int owner) noexcept {
   const std::size_t count = std::min(contacts.size(), results.size());
-  TissueContact contact;
-  glm::dvec3 push(0.0), rub(0.0);
+  glm::dvec3 push(0.0);
   std::size_t nearest = count;
   for (std::size_t i = 0; i < count; ++i) {
     if (contacts[i].owner != owner) continue;
     if (nearest == count || results[i].gap < results[nearest].gap) nearest = i;
     push -= results[i].push;
+  }
+  if (nearest == count) return {};
+  const double size = glm::length(push);
+  return {size > 0.0 ? push / size : -contacts[nearest].normal, size};
+}
+
+void AddContacts(std::span<const ContactPoint> contacts, std::span<const ContactResult> results,
+                 int owner, const TouchedSkin& skin, double spring,
+                 const glm::dquat& portal_from_body, int tissue, ToolCoupling& coupling) noexcept {
+  const std::size_t count = std::min(contacts.size(), results.size());
+  const auto [normal, size] = PushOf(contacts, results, owner);
+  if (normal == glm::dvec3(0.0)) return;
+  TissueContact contact;
+  glm::dvec3 rub(0.0);
+  double gap = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (contacts[i].owner != owner) continue;
+    gap = std::min(gap, results[i].gap);
     rub -= results[i].force - results[i].push;
     contact.friction = contacts[i].friction;
   }
-  if (nearest == count) return;
-  const double size = glm::length(push);
-  const glm::dvec3 normal = size > 0.0 ? push / size : -contacts[nearest].normal;
-  const double stiffness = glm::dot(normal, skin.stiffness * normal);
+  const double stiffness = skin.stiffness;
   // Keeps a minimum stiffness, so that a tool that a step found about to slip is still held for
   // some distance.
   contact.stiffness = std::clamp(stiffness, std::min(size / kLongestHold, spring), spring);
@@ -110,7 +124,7 @@ void AddContacts(std::span<const ContactPoint> contacts, std::span<const Contact
     contact.power = std::clamp(contact.stiffness * skin.depth / size, kLeastPower, kMostPower);
     contact.depth = contact.power * size / contact.stiffness;
   } else {
-    contact.depth = -std::max(0.0, results[nearest].gap);
+    contact.depth = -std::max(0.0, gap);
   }
   const glm::dmat3 turn = glm::mat3_cast(portal_from_body);
   contact.normal = turn * normal;

@@ -52,10 +52,20 @@ bool IsFinite(const ToolCoupling& coupling) noexcept;
 
 // Properties of the skin under a tool, apart from the step's forces, in the body's frame.
 struct TouchedSkin {
-  glm::dmat3 stiffness{0.0};  // whole tool with the tissue following; may be any matrix
+  double stiffness = 0;       // along PushOf, the tissue following, N/m; may be any number
   glm::dmat3 curvature{0.0};  // C, of the unpressed skin
   double depth = 0;           // depth of the commanded tool below that skin, m; 0: unknown
 };
+
+// Push of one body on a tool, in the body's frame. Without a push, the direction is that of the
+// nearest contact.
+struct BodyPush {
+  glm::dvec3 direction{0.0};  // unit; zero: no contact
+  double size = 0;            // N
+};
+// Sums the contacts of a tool; the arguments are those of AddContacts.
+BodyPush PushOf(std::span<const ContactPoint> contacts, std::span<const ContactResult> results,
+                int owner) noexcept;
 
 // Adds the contact of one body to a tool's coupling. `contacts` and `results` are those of its
 // step, in its own frame; other owners' contacts are ignored. `spring` is the tool's. If no contact

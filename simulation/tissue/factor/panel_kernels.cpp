@@ -85,83 +85,69 @@ ARTHRO_INLINE void MultiplyBody(int m, int n, int k, const double* a, int lda, c
   }
 }
 
-// Multiplies kColumns columns of a panel by kRight vectors, strip by strip.
-template <int kColumns, int kRight>
-ARTHRO_INLINE void AddColumns(const float* p, int stride, int first, const float* x, int xs,
-                              float* t, int ts) {
+// Adds the product of kColumns columns of a panel, strip by strip.
+template <int kColumns>
+ARTHRO_INLINE void AddColumns(const float* p, int stride, int first, const float* x, float* t) {
   for (int i = first; i < stride; i += kStrip) {
-    Floats sum[kRight];
-#pragma GCC unroll 8
-    for (int c = 0; c < kRight; ++c) std::memcpy(&sum[c], t + c * ts + i, sizeof sum[c]);
+    ARTHRO_LOAD(Floats, sum, t + i);
 #pragma GCC unroll 8
     for (int j = 0; j < kColumns; ++j) {
       ARTHRO_LOAD(Floats, pij, p + static_cast<long>(j) * stride + i);
-#pragma GCC unroll 8
-      for (int c = 0; c < kRight; ++c) sum[c] += pij * x[c * xs + j];
+      sum += pij * x[j];
     }
-#pragma GCC unroll 8
-    for (int c = 0; c < kRight; ++c) ARTHRO_STORE(sum[c], t + c * ts + i);
+    ARTHRO_STORE(sum, t + i);
   }
 }
 
-template <int kRight>
-ARTHRO_INLINE void PanelBody(const Panel& panel, const float* x, int xs, float* t, int ts) {
+ARTHRO_INLINE void PanelBody(const Panel& panel, const float* x, float* t) {
   const int stride = panel.stride;
-  for (int c = 0; c < kRight; ++c) std::fill_n(t + c * ts, stride, 0.0f);
+  std::fill_n(t, stride, 0.0f);
   int j = 0;
   const float* p = panel.value;
   for (; j + 6 <= panel.columns; j += 6, p += 6L * stride)
-    AddColumns<6, kRight>(p, stride, j / kStrip * kStrip, x + j, xs, t, ts);
+    AddColumns<6>(p, stride, j / kStrip * kStrip, x + j, t);
   for (; j + 3 <= panel.columns; j += 3, p += 3L * stride)
-    AddColumns<3, kRight>(p, stride, j / kStrip * kStrip, x + j, xs, t, ts);
+    AddColumns<3>(p, stride, j / kStrip * kStrip, x + j, t);
   for (; j < panel.columns; ++j, p += stride)
-    AddColumns<1, kRight>(p, stride, j / kStrip * kStrip, x + j, xs, t, ts);
+    AddColumns<1>(p, stride, j / kStrip * kStrip, x + j, t);
 }
 
-template <int kColumns, int kRight>
-ARTHRO_INLINE void DotColumns(const float* p, int stride, int first, const float* t, int ts,
-                              float* x, int xs) {
-  Floats sum[kColumns * kRight] = {};
+template <int kColumns>
+ARTHRO_INLINE void DotColumns(const float* p, int stride, int first, const float* t, float* x) {
+  Floats sum[kColumns] = {};
   for (int i = first; i < stride; i += kStrip) {
-    Floats ti[kRight];
-#pragma GCC unroll 8
-    for (int c = 0; c < kRight; ++c) std::memcpy(&ti[c], t + c * ts + i, sizeof ti[c]);
+    ARTHRO_LOAD(Floats, ti, t + i);
 #pragma GCC unroll 8
     for (int j = 0; j < kColumns; ++j) {
       ARTHRO_LOAD(Floats, pij, p + static_cast<long>(j) * stride + i);
-#pragma GCC unroll 8
-      for (int c = 0; c < kRight; ++c) sum[j * kRight + c] += pij * ti[c];
+      sum[j] += pij * ti;
     }
   }
-  for (int j = 0; j < kColumns; ++j)
-    for (int c = 0; c < kRight; ++c) {
-      const Floats& lanes = sum[j * kRight + c];
-      float half[8];
-      for (int l = 0; l < 8; ++l) half[l] = lanes[l] + lanes[l + 8];
-      x[c * xs + j] =
-          ((half[0] + half[4]) + (half[1] + half[5])) + ((half[2] + half[6]) + (half[3] + half[7]));
-    }
+  for (int j = 0; j < kColumns; ++j) {
+    float half[8];
+    for (int l = 0; l < 8; ++l) half[l] = sum[j][l] + sum[j][l + 8];
+    x[j] =
+        ((half[0] + half[4]) + (half[1] + half[5])) + ((half[2] + half[6]) + (half[3] + half[7]));
+  }
 }
 
-template <int kRight>
-ARTHRO_INLINE void PanelTransposedBody(const Panel& panel, const float* t, int ts, float* x,
-                                       int xs) {
+ARTHRO_INLINE void PanelTransposedBody(const Panel& panel, const float* t, float* x) {
   const int stride = panel.stride;
   int j = 0;
   const float* p = panel.value;
   for (; j + 6 <= panel.columns; j += 6, p += 6L * stride)
-    DotColumns<6, kRight>(p, stride, j / kStrip * kStrip, t, ts, x + j, xs);
+    DotColumns<6>(p, stride, j / kStrip * kStrip, t, x + j);
   for (; j + 3 <= panel.columns; j += 3, p += 3L * stride)
-    DotColumns<3, kRight>(p, stride, j / kStrip * kStrip, t, ts, x + j, xs);
+    DotColumns<3>(p, stride, j / kStrip * kStrip, t, x + j);
   for (; j < panel.columns; ++j, p += stride)
-    DotColumns<1, kRight>(p, stride, j / kStrip * kStrip, t, ts, x + j, xs);
+    DotColumns<1>(p, stride, j / kStrip * kStrip, t, x + j);
 }
 
 struct Kernels {
   void (*multiply)(int, int, int, const double*, int, const double*, int, double*, int, double,
                    bool, LeftOut) noexcept;
-  void (*panel)(const Panel&, int, const float*, int, float*, int) noexcept;
-  void (*panel_transposed)(const Panel&, int, const float*, int, float*, int) noexcept;
+  void (*panel)(const Panel&, const float*, float*) noexcept;
+  void (*panel_transposed)(const Panel&, const float*, float*) noexcept;
 };
 
 // NOLINTBEGIN(bugprone-macro-parentheses): names and attributes take no parentheses
@@ -172,14 +158,11 @@ struct Kernels {
                                    LeftOut left_out) noexcept {                                    \
       MultiplyBody(m, n, k, a, lda, b, ldb, c, ldc, sign, adds, left_out);                         \
     }                                                                                              \
-    ATTRIBUTE static void Forward(const Panel& p, int right, const float* x, int xs, float* t,     \
-                                  int ts) noexcept {                                               \
-      right == 3 ? PanelBody<3>(p, x, xs, t, ts) : PanelBody<1>(p, x, xs, t, ts);                  \
+    ATTRIBUTE static void Forward(const Panel& p, const float* x, float* t) noexcept {             \
+      PanelBody(p, x, t);                                                                          \
     }                                                                                              \
-    ATTRIBUTE static void Backward(const Panel& p, int right, const float* t, int ts, float* x,    \
-                                   int xs) noexcept {                                              \
-      right == 3 ? PanelTransposedBody<3>(p, t, ts, x, xs)                                         \
-                 : PanelTransposedBody<1>(p, t, ts, x, xs);                                        \
+    ATTRIBUTE static void Backward(const Panel& p, const float* t, float* x) noexcept {            \
+      PanelTransposedBody(p, t, x);                                                                \
     }                                                                                              \
     static constexpr Kernels kAll{Multiply, Forward, Backward};                                    \
   };
@@ -236,14 +219,10 @@ void MultiplyTransposed(int m, int n, int k, const double* a, int lda, const dou
   kKernels.multiply(m, n, k, a, lda, b, ldb, c, ldc, sign, adds, left_out);
 }
 
-void MultiplyPanel(const Panel& p, int right, const float* x, int x_stride, float* t,
-                   int t_stride) noexcept {
-  kKernels.panel(p, right, x, x_stride, t, t_stride);
-}
+void MultiplyPanel(const Panel& p, const float* x, float* t) noexcept { kKernels.panel(p, x, t); }
 
-void MultiplyPanelTransposed(const Panel& p, int right, const float* t, int t_stride, float* x,
-                             int x_stride) noexcept {
-  kKernels.panel_transposed(p, right, t, t_stride, x, x_stride);
+void MultiplyPanelTransposed(const Panel& p, const float* t, float* x) noexcept {
+  kKernels.panel_transposed(p, t, x);
 }
 
 // Divides the matrix into halves: L₂₁ = A₂₁ L₁₁⁻ᵀ, A₂₂ −= L₂₁ L₂₁ᵀ, and (L⁻¹)₂₁ = −L₂₂⁻¹ L₂₁ L₁₁⁻¹.

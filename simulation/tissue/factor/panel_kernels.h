@@ -31,11 +31,8 @@ struct Panel {
   const float* value;
   int columns, stride;
 };
-// Compute t = P x (t has `stride` rows) and x = Pᵀ t for `right` vectors at once, 1 or 3. Three
-// cost little more than one, because P is read once. Vector c begins at c times the given stride.
-void MultiplyPanel(const Panel& p, int right, const float* x, int x_stride, float* t,
-                   int t_stride) noexcept;
-void MultiplyPanelTransposed(const Panel& p, int right, const float* t, int t_stride, float* x,
-                             int x_stride) noexcept;
+// Compute t = P x (t has `stride` rows) and x = Pᵀ t.
+void MultiplyPanel(const Panel& p, const float* x, float* t) noexcept;
+void MultiplyPanelTransposed(const Panel& p, const float* t, float* x) noexcept;
 
 }  // namespace arthro::simulation

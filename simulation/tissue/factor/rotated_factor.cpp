@@ -18,8 +18,8 @@ RotatedFactor::RotatedFactor(std::unique_ptr<SparseFactor> factor,
                              std::span<const glm::dmat3> rotation)
     : factor_(std::move(factor)) {
   const std::size_t nodes = factor_->plan().fixed().size();
-  for (auto& v : right_) v.resize(nodes);
-  for (auto& v : left_) v.resize(nodes);
+  right_.resize(nodes);
+  left_.resize(nodes);
   SetRotations(rotation);
 }
 
@@ -40,7 +40,7 @@ void RotatedFactor::Inherit(std::span<const int> parent, const FixedAxes& fixed)
     then[i] = then_[parent[i]];
     if (!parent_.empty()) chain[i] = parent_[parent[i]];
   }
-  std::vector<int> children(right_[0].size(), 0);
+  std::vector<int> children(right_.size(), 0);
   for (const int p : chain) ++children[p];
   is_split_.resize(nodes);
   for (std::size_t i = 0; i < nodes; ++i) is_split_[i] = children[chain[i]] > 1;
@@ -72,33 +72,22 @@ void RotatedFactor::SetDiagonal(const BlockMatrix& a, std::span<const double> ad
   }
 }
 
-void RotatedFactor::Solve(std::span<const std::span<const glm::dvec3>> r,
-                          std::span<const std::span<glm::dvec3>> z) noexcept {
-  const std::size_t nodes = turn_.size(), count = r.size();
-  std::array<std::span<const glm::dvec3>, 3> right;
-  std::array<std::span<glm::dvec3>, 3> left;
-  for (std::size_t c = 0; c < count; ++c) {
-    if (parent_.empty()) {
-      for (std::size_t i = 0; i < nodes; ++i) right_[c][i] = r[c][i] * turn_[i];  // Qᵀ r
-    } else {
-      std::fill(right_[c].begin(), right_[c].end(), glm::dvec3(0.0));
-      for (std::size_t i = 0; i < nodes; ++i) right_[c][parent_[i]] += r[c][i] * turn_[i];
-    }
-    right[c] = right_[c];
-    left[c] = left_[c];
+void RotatedFactor::Solve(std::span<const glm::dvec3> r, std::span<glm::dvec3> z) noexcept {
+  const std::size_t nodes = turn_.size();
+  if (parent_.empty()) {
+    for (std::size_t i = 0; i < nodes; ++i) right_[i] = r[i] * turn_[i];  // Qᵀ r
+    factor_->Solve(right_, left_);
+    for (std::size_t i = 0; i < nodes; ++i) z[i] = turn_[i] * left_[i];
+    return;
   }
-  factor_->Solve(std::span(right).first(count), std::span(left).first(count));
-  for (std::size_t c = 0; c < count; ++c) {
-    if (parent_.empty()) {
-      for (std::size_t i = 0; i < nodes; ++i) z[c][i] = turn_[i] * left_[c][i];
-      continue;
-    }
-    // The old factor moves split nodes together; their own blocks move them apart.
-    for (std::size_t i = 0; i < nodes; ++i) {
-      glm::dvec3 zi = turn_[i] * left_[c][parent_[i]];
-      if (is_split_[i]) zi += block_[i] * r[c][i];
-      z[c][i] = FreePart(zi, fixed_[i]);
-    }
+  std::fill(right_.begin(), right_.end(), glm::dvec3(0.0));
+  for (std::size_t i = 0; i < nodes; ++i) right_[parent_[i]] += r[i] * turn_[i];
+  factor_->Solve(right_, left_);
+  // The old factor moves split nodes together; their own blocks move them apart.
+  for (std::size_t i = 0; i < nodes; ++i) {
+    glm::dvec3 zi = turn_[i] * left_[parent_[i]];
+    if (is_split_[i]) zi += block_[i] * r[i];
+    z[i] = FreePart(zi, fixed_[i]);
   }
 }
 

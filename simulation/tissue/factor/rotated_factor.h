@@ -3,7 +3,6 @@
 // [method.md, Deformable tissue]. With `parent` it also serves a body that has been cut since.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -37,12 +36,7 @@ class RotatedFactor {
   void SetDiagonal(const BlockMatrix& a, std::span<const double> added) noexcept;
 
   // Computes z = P⁻¹ r, 0 at fixed axes. Allocates nothing.
-  void Solve(std::span<const glm::dvec3> r, std::span<glm::dvec3> z) noexcept {
-    Solve(std::span(&r, 1), std::span(&z, 1));
-  }
-  // The same for 1 or 3 vectors at once.
-  void Solve(std::span<const std::span<const glm::dvec3>> r,
-             std::span<const std::span<glm::dvec3>> z) noexcept;
+  void Solve(std::span<const glm::dvec3> r, std::span<glm::dvec3> z) noexcept;
 
  private:
   std::unique_ptr<SparseFactor> factor_;
@@ -51,7 +45,7 @@ class RotatedFactor {
   std::vector<int> parent_;              // empty: the body has not been cut
   std::vector<glm::dmat3> block_;        // at split nodes: inverse of the diagonal block, else 0
   std::vector<unsigned char> is_split_;
-  std::array<std::vector<glm::dvec3>, 3> right_, left_;  // per node of the factor
+  std::vector<glm::dvec3> right_, left_;  // per node of the factor
 };
 
 }  // namespace arthro::simulation

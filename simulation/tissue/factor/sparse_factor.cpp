@@ -1,26 +1,19 @@
 #include "simulation/tissue/factor/sparse_factor.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "simulation/tissue/factor/panel_kernels.h"
 
 namespace arthro::simulation {
-namespace {
-
-constexpr int kMostRight = 3;  // right-hand sides
-
-}  // namespace
-
 SparseFactor::SparseFactor(std::shared_ptr<const FactorPlan> plan) : plan_(std::move(plan)) {
   const FactorPlan& p = *plan_;
   storage_.assign(p.panel_size_ + 2 * kStrip, 0.0f);
   panels_ = storage_.data();
   while (reinterpret_cast<std::uintptr_t>(panels_) % 64) ++panels_;
-  vector_.resize(static_cast<std::size_t>(kMostRight) * p.size_);
-  strip_.resize(static_cast<std::size_t>(kMostRight) * RoundUpToStrip(p.tallest_));
-  short_.resize(static_cast<std::size_t>(kMostRight) * p.widest_);
+  vector_.resize(p.size_);
+  strip_.resize(RoundUpToStrip(p.tallest_));
+  short_.resize(p.widest_);
 }
 
 void SparseFactor::TakeWorkMemory(SparseFactor& other) noexcept {
@@ -152,48 +145,34 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
   return true;
 }
 
-void SparseFactor::Solve(std::span<const std::span<const glm::dvec3>> b,
-                         std::span<const std::span<glm::dvec3>> x) noexcept {
+void SparseFactor::Solve(std::span<const glm::dvec3> b, std::span<glm::dvec3> x) noexcept {
   const FactorPlan& p = *plan_;
-  const int right = static_cast<int>(b.size()), n = p.size_, tall = RoundUpToStrip(p.tallest_);
-  float *v = vector_.data(), *t = strip_.data();
-  // Scales each vector, so that neither tiny nor huge forces leave the range of float.
-  std::array<double, kMostRight> scale{};
-  for (int c = 0; c < right; ++c) {
-    double largest = 0;
-    for (const glm::dvec3& bi : b[c])
-      largest = std::max({largest, std::abs(bi.x), std::abs(bi.y), std::abs(bi.z)});
-    std::fill(x[c].begin(), x[c].end(), glm::dvec3(0.0));
-    scale[c] = largest > 0 && std::isfinite(largest) ? largest : 0.0;
-    const double* from = &b[c][0].x;
-    for (int i = 0; i < n; ++i)
-      v[c * n + i] = scale[c] > 0 ? static_cast<float>(from[p.axis_[i]] / largest) : 0.0f;
-  }
+  float *v = vector_.data(), *strip = strip_.data();
+  // Scales the vector, so that neither tiny nor huge forces leave the range of float.
+  double largest = 0;
+  for (const glm::dvec3& bi : b)
+    largest = std::max({largest, std::abs(bi.x), std::abs(bi.y), std::abs(bi.z)});
+  std::fill(x.begin(), x.end(), glm::dvec3(0.0));
+  const double scale = largest > 0 && std::isfinite(largest) ? largest : 0.0;
+  if (p.size_ == 0 || scale == 0) return;
+  const double* from = &b[0].x;
+  for (int i = 0; i < p.size_; ++i) v[i] = static_cast<float>(from[p.axis_[i]] / largest);
   for (const FactorPlan::Supernode& s : p.supernode_) {
-    MultiplyPanel({panels_ + s.value, s.columns, s.stride}, right, v + s.first, n, t, tall);
+    MultiplyPanel({panels_ + s.value, s.columns, s.stride}, v + s.first, strip);
     const int* rows = p.row_.data() + s.row;
-    for (int c = 0; c < right; ++c) {
-      std::copy_n(t + c * tall, s.columns, v + c * n + s.first);
-      for (int r = s.columns; r < s.rows; ++r) v[c * n + rows[r]] -= t[c * tall + r];
-    }
+    std::copy_n(strip, s.columns, v + s.first);
+    for (int r = s.columns; r < s.rows; ++r) v[rows[r]] -= strip[r];
   }
   for (auto s = p.supernode_.rbegin(); s != p.supernode_.rend(); ++s) {
     const int* rows = p.row_.data() + s->row;
-    for (int c = 0; c < right; ++c) {
-      float* strip = t + c * tall;
-      std::copy_n(v + c * n + s->first, s->columns, strip);
-      for (int r = s->columns; r < s->rows; ++r) strip[r] = -v[c * n + rows[r]];
-      std::fill(strip + s->rows, strip + s->stride, 0.0f);
-    }
-    MultiplyPanelTransposed({panels_ + s->value, s->columns, s->stride}, right, t, tall,
-                            short_.data(), p.widest_);
-    for (int c = 0; c < right; ++c)
-      std::copy_n(short_.data() + c * p.widest_, s->columns, v + c * n + s->first);
+    std::copy_n(v + s->first, s->columns, strip);
+    for (int r = s->columns; r < s->rows; ++r) strip[r] = -v[rows[r]];
+    std::fill(strip + s->rows, strip + s->stride, 0.0f);
+    MultiplyPanelTransposed({panels_ + s->value, s->columns, s->stride}, strip, short_.data());
+    std::copy_n(short_.data(), s->columns, v + s->first);
   }
-  for (int c = 0; c < right; ++c) {
-    double* to = &x[c][0].x;
-    for (int i = 0; i < n; ++i) to[p.axis_[i]] = scale[c] * static_cast<double>(v[c * n + i]);
-  }
+  double* to = &x[0].x;
+  for (int i = 0; i < p.size_; ++i) to[p.axis_[i]] = scale * static_cast<double>(v[i]);
 }
 
 }  // namespace arthro::simulation

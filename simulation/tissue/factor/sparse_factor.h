@@ -98,12 +98,7 @@ class SparseFactor {
   void TakeWorkMemory(SparseFactor& other) noexcept;
 
   // Computes x = A⁻¹ b, 0 at fixed axes. Not thread-safe: it uses its own buffer.
-  void Solve(std::span<const glm::dvec3> b, std::span<glm::dvec3> x) noexcept {
-    Solve(std::span(&b, 1), std::span(&x, 1));
-  }
-  // The same for 1 or 3 right-hand sides at once.
-  void Solve(std::span<const std::span<const glm::dvec3>> b,
-             std::span<const std::span<glm::dvec3>> x) noexcept;
+  void Solve(std::span<const glm::dvec3> b, std::span<glm::dvec3> x) noexcept;
 
   const FactorPlan& plan() const { return *plan_; }
   const std::shared_ptr<const FactorPlan>& shared_plan() const { return plan_; }
@@ -117,8 +112,8 @@ class SparseFactor {
   std::vector<double> inverse_, product_, right_;
   std::vector<int> map_, head_, next_, position_;
   std::vector<float> storage_;
-  float* panels_ = nullptr;                    // 64-byte aligned
-  std::vector<float> vector_, strip_, short_;  // room for three right-hand sides
+  float* panels_ = nullptr;  // 64-byte aligned
+  std::vector<float> vector_, strip_, short_;
 };
 
 }  // namespace arthro::simulation

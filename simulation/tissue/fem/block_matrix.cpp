@@ -43,28 +43,12 @@ BlockPattern MakePattern(std::span<const int> elements, int nodes_per_element, i
   return pattern;
 }
 
-namespace {
-
-void MultiplyAll(const BlockMatrix& a, int vectors, const std::array<const glm::dvec3*, 3>& x,
-                 const std::array<glm::dvec3*, 3>& y, const ElementKernel* kernel) noexcept {
+void Multiply(const BlockMatrix& a, std::span<const glm::dvec3> x, std::span<glm::dvec3> y,
+              const ElementKernel* kernel) noexcept {
   if (kernel == nullptr) kernel = &BestKernel();
   const BlockPattern& p = *a.pattern;
   kernel->multiply(
-      {p.node_count(), p.row_begin.data(), p.column.data(), a.block.data(), vectors, x, y});
-}
-
-}  // namespace
-
-void Multiply(const BlockMatrix& a, std::span<const glm::dvec3> x, std::span<glm::dvec3> y,
-              const ElementKernel* kernel) noexcept {
-  MultiplyAll(a, 1, {x.data()}, {y.data()}, kernel);
-}
-
-void MultiplyThree(const BlockMatrix& a, const std::array<std::span<const glm::dvec3>, 3>& x,
-                   const std::array<std::span<glm::dvec3>, 3>& y,
-                   const ElementKernel* kernel) noexcept {
-  MultiplyAll(a, 3, {x[0].data(), x[1].data(), x[2].data()},
-              {y[0].data(), y[1].data(), y[2].data()}, kernel);
+      {p.node_count(), p.row_begin.data(), p.column.data(), a.block.data(), x.data(), y.data()});
 }
 
 }  // namespace arthro::simulation

@@ -40,9 +40,5 @@ struct ElementKernel;
 // `kernel` picks the fastest one for this processor.
 void Multiply(const BlockMatrix& a, std::span<const glm::dvec3> x, std::span<glm::dvec3> y,
               const ElementKernel* kernel = nullptr) noexcept;
-// Computes three products while reading the matrix once. Each result equals that of Multiply.
-void MultiplyThree(const BlockMatrix& a, const std::array<std::span<const glm::dvec3>, 3>& x,
-                   const std::array<std::span<glm::dvec3>, 3>& y,
-                   const ElementKernel* kernel = nullptr) noexcept;
 
 }  // namespace arthro::simulation

@@ -37,9 +37,8 @@ struct MultiplyJob {
   const int* row_begin;
   const int* column;
   const std::array<double, 9>* block;
-  int vectors;  // 1 or 3
-  std::array<const glm::dvec3*, 3> x;
-  std::array<glm::dvec3*, 3> y;
+  const glm::dvec3* x;
+  glm::dvec3* y;  // output
 };
 
 struct PointJob {

@@ -1,24 +1,12 @@
 #include "simulation/tissue/solver/conjugate_gradients.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace arthro::simulation {
 
 void LinearSystem::Apply(std::span<const glm::dvec3> p, std::span<glm::dvec3> y) const noexcept {
   Multiply(*stiffness, p, y);
-  Finish(p, y);
-}
-
-void LinearSystem::ApplyThree(const std::array<std::span<const glm::dvec3>, 3>& p,
-                              const std::array<std::span<glm::dvec3>, 3>& y) const noexcept {
-  MultiplyThree(*stiffness, p, y);
-  for (std::size_t c = 0; c < p.size(); ++c) Finish(p[c], y[c]);
-}
-
-// Adds the terms that are not elastic and clears the fixed axes.
-void LinearSystem::Finish(std::span<const glm::dvec3> p, std::span<glm::dvec3> y) const noexcept {
   if (!added.empty())
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += added[i] * p[i];
   AddStiffness(springs, holds, p, y);
@@ -90,59 +78,6 @@ CgResult SolveByGradients(const LinearSystem& system, RotatedFactor& preconditio
     rz = next;
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = z[i] + turn * p[i];
   }
-  return result;
-}
-
-CgResult SolveThree(const LinearSystem& system, RotatedFactor& preconditioner,
-                    std::span<const std::vector<glm::dvec3>, 3> b, const CgGoal& goal,
-                    std::span<CgVectors, 3> vectors,
-                    std::span<std::vector<glm::dvec3>, 3> d) noexcept {
-  CgResult result;
-  std::array<std::span<const glm::dvec3>, 3> r, p;
-  std::array<std::span<glm::dvec3>, 3> z, q;
-  std::array<double, 3> rz{}, enough{};
-  std::array<bool, 3> is_done{};
-  for (int c = 0; c < 3; ++c) {
-    enough[c] = Begin(system, b[c], goal, vectors[c], d[c]);
-    r[c] = vectors[c].r, z[c] = vectors[c].z, p[c] = vectors[c].p, q[c] = vectors[c].q;
-  }
-  preconditioner.Solve(r, z);
-  for (int c = 0; c < 3; ++c) {
-    rz[c] = Dot(r[c], z[c]);
-    if (enough[c] < 0) enough[c] *= -rz[c];
-    is_done[c] = !(rz[c] > 0) || rz[c] <= enough[c];
-    std::copy(z[c].begin(), z[c].end(), vectors[c].p.begin());
-  }
-  while (!(is_done[0] && is_done[1] && is_done[2]) && result.iterations < goal.max_iterations) {
-    ++result.iterations;
-    system.ApplyThree(p, q);
-    for (int c = 0; c < 3; ++c) {
-      if (is_done[c]) continue;
-      auto& v = vectors[c];
-      const double curvature = Dot(v.p, v.q);
-      if (!(curvature > 0)) {
-        result.is_positive = false;
-        is_done[c] = true;
-        continue;
-      }
-      const double step = rz[c] / curvature;
-      for (std::size_t i = 0; i < v.r.size(); ++i) {
-        d[c][i] += step * v.p[i];
-        v.r[i] -= step * v.q[i];
-      }
-    }
-    preconditioner.Solve(r, z);
-    for (int c = 0; c < 3; ++c) {
-      if (is_done[c]) continue;
-      auto& v = vectors[c];
-      const double next = Dot(v.r, v.z);
-      is_done[c] = !std::isfinite(next) || next <= enough[c];
-      const double turn = next / rz[c];
-      rz[c] = next;
-      for (std::size_t i = 0; i < v.p.size(); ++i) v.p[i] = v.z[i] + turn * v.p[i];
-    }
-  }
-  result.converged = is_done[0] && is_done[1] && is_done[2] && result.is_positive;
   return result;
 }
 

@@ -41,11 +41,6 @@ struct LinearSystem {
 
   // Computes y = A p, 0 at fixed axes; p may be non-zero there.
   void Apply(std::span<const glm::dvec3> p, std::span<glm::dvec3> y) const noexcept;
-  void ApplyThree(const std::array<std::span<const glm::dvec3>, 3>& p,
-                  const std::array<std::span<glm::dvec3>, 3>& y) const noexcept;
-
- private:
-  void Finish(std::span<const glm::dvec3> p, std::span<glm::dvec3> y) const noexcept;
 };
 
 struct CgGoal {
@@ -73,12 +68,5 @@ struct CgVectors {
 CgResult SolveByGradients(const LinearSystem& system, RotatedFactor& preconditioner,
                           std::span<const glm::dvec3> b, const CgGoal& goal, CgVectors& vectors,
                           std::span<glm::dvec3> d) noexcept;
-
-// Solves for three right-hand sides in step, so that a factor's panels are read once for all three.
-// Ends when all have reached the relative goal.
-CgResult SolveThree(const LinearSystem& system, RotatedFactor& preconditioner,
-                    std::span<const std::vector<glm::dvec3>, 3> b, const CgGoal& goal,
-                    std::span<CgVectors, 3> vectors,
-                    std::span<std::vector<glm::dvec3>, 3> d) noexcept;
 
 }  // namespace arthro::simulation

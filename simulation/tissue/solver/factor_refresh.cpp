@@ -46,8 +46,10 @@ int ImplicitSolver::Impl::FactorNow(std::span<const glm::dvec3> x, bool of_true_
     const double dt = last_dt > 0 ? last_dt : kStaticStep;
     std::vector<double> with(mass.size());
     for (std::size_t i = 0; i < mass.size(); ++i) with[i] = mass[i] / (dt * dt);
-    auto made = std::make_unique<SparseFactor>(
-        UpdatePlan(factor->factor().shared_plan(), factor->parent(), stiffness.pattern, fixed));
+    std::shared_ptr<const FactorPlan> plan = std::exchange(next_plan, nullptr);
+    if (plan == nullptr || !plan->Fits(*stiffness.pattern, fixed))
+      plan = UpdatePlan(factor->factor().shared_plan(), factor->parent(), stiffness.pattern, fixed);
+    auto made = std::make_unique<SparseFactor>(std::move(plan));
     made->TakeWorkMemory(factor->factor());
     const auto shift_needed = [&](bool any) {
       BlockMatrix matrix = stiffness;
@@ -141,6 +143,19 @@ bool ImplicitSolver::TakeRefreshed() noexcept {
 
 int ImplicitSolver::factor_age() const { return impl_->age; }
 
+void ImplicitSolver::RunPlan() noexcept {
+  Impl::PlanJob& job = impl_->plan_job;
+  try {
+    if (job.before != nullptr)
+      job.made = UpdatePlan(job.before, job.parent, job.pattern, job.fixed);
+  } catch (const std::exception&) {  // no memory: the step tries it again
+  }
+}
+
+void ImplicitSolver::TakePlan() noexcept {
+  impl_->next_plan = std::exchange(impl_->plan_job, {}).made;
+}
+
 void ImplicitSolver::Replace(std::shared_ptr<const FemModel> model, FixedAxes fixed,
                              std::span<const int> parent) {
   Impl& body = *impl_;
@@ -165,6 +180,13 @@ void ImplicitSolver::Replace(std::shared_ptr<const FemModel> model, FixedAxes fi
   body.fixed = std::move(fixed);
   body.Fit();
   body.factor->Inherit(parent, body.fixed);
+  body.next_plan.reset();
+  const std::span<const int> chain = body.factor->parent();
+  body.plan_job = {body.factor->factor().shared_plan(),
+                   nullptr,
+                   {chain.begin(), chain.end()},
+                   body.stiffness.pattern,
+                   body.fixed};
   body.job_parent = std::move(of_job);
   body.good_x = std::move(x);
   body.good_v = std::move(v);

@@ -45,14 +45,12 @@ void ImplicitSolver::Impl::Fit() {
   stiffness.pattern = model->pattern();
   stiffness.block.resize(model->pattern()->column.size());
   for (auto* v : {&at, &force, &goal_x, &begin_x, &gradient, &direction, &right, &lead, &trial,
-                  &reaction, &unit_load, &tool_right[0], &tool_right[1], &tool_right[2]})
+                  &reaction, &unit_load, &tool_right, &tool_left[0], &tool_left[1]})
     v->assign(nodes, glm::dvec3(0.0));
-  for (auto& tool : tool_left)
-    for (auto& column : tool) column.assign(nodes, glm::dvec3(0.0));
   rotation.assign(nodes, glm::dmat3(1.0));
   added.assign(nodes, 0.0);
   vectors.Resize(model->node_count());
-  for (CgVectors& v : tool_vectors) v.Resize(model->node_count());
+  tool_vectors.Resize(model->node_count());
   is_evaluated = false;
 
   // Estimates rounding errors; smaller forces and energies count as zero.

@@ -16,7 +16,6 @@
 #include <span>
 #include <vector>
 
-#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include "simulation/core/options.h"
@@ -101,20 +100,22 @@ class ImplicitSolver {
   bool TakeRefreshed() noexcept;
   int factor_age() const;  // steps since the factor in use was begun
 
-  // Computes the condensed compliance of the last step's system without the contacts of `points`: W
-  // = J A⁻¹ Jᵀ, 3m × 3m row-major, m/N, with J the points' weights. Uses the same conjugate
-  // gradients up to `tolerance`.
-  void Compliance(std::span<const ContactPoint> points, double tolerance, std::span<double> w);
+  // Plan the first factor after Replace, so that the step that makes it finds the plan. Run may be
+  // called on another thread and touches nothing that Step reads. Take is called on this one.
+  // Without them the step plans, with the same result.
+  void RunPlan() noexcept;
+  void TakePlan() noexcept;
 
-  // Returns the stiffness that the hand feels through a tool: the change of its force when the hand
-  // moves, tool and tissue following, without the tool's own friction. K = h − h H⁻¹ h − Bᵀ A⁻¹ B,
-  // B = h Σ Jᵢᵀ Kᵢ H⁻¹, H = h + Σ Kᵢ. The sums run over the contacts of `owner` that bear in the
-  // last step, or the nearest as if it did. h is the spring to the hand, A that step's system. N/m,
-  // symmetric.
+  // Returns the stiffness nᵀ K n that the hand feels through a tool along a unit direction n: the
+  // change of its force when the hand moves, tool and tissue following, without the tool's own
+  // friction. K = h − h H⁻¹ h − Bᵀ A⁻¹ B, B = h Σ Jᵢᵀ Kᵢ H⁻¹, H = h + Σ Kᵢ. The sums run over the
+  // contacts of `owner` that bear in the last step, or the nearest as if it did. h is the spring to
+  // the hand, A that step's system. N/m; 0: no such tool, or no step yet.
   // The rotation of a round tool's normals is included, so K is exact and need not be positive
-  // definite. Uses the same conjugate gradients for three right-hand sides at once; allocates
-  // nothing.
-  glm::dmat3 ToolStiffness(int owner, double tolerance) noexcept;
+  // definite. Solves for A⁻¹ B n by the same conjugate gradients, which start at the last answer
+  // for this tool; the error of the stiffness is the square of `tolerance`, in parts of h.
+  // Allocates nothing.
+  double ToolStiffness(int owner, const glm::dvec3& direction, double tolerance) noexcept;
 
   // Replaces the model after a cut or with new shares: node i of the new model was node parent[i]
   // of the old one. The old factor, mapped by `parent`, stays the preconditioner until a refreshed

@@ -65,9 +65,6 @@ struct ImplicitSolver::Impl {
   void FitRestShape(std::span<glm::dvec3> x) const;
   void RecoverShape(std::span<glm::dvec3> x, const Problem& problem);
 
-  // compliance.cpp
-  std::vector<ContactSpring> SpringsWithout(std::span<const ContactPoint> points) const;
-
   // factor_refresh.cpp
   int FactorNow(std::span<const glm::dvec3> x, bool of_true_tangent) noexcept;
   void AddSprings(BlockMatrix& to) const;
@@ -97,7 +94,7 @@ struct ImplicitSolver::Impl {
   std::vector<ContactSpring> springs, tool_springs;
   std::vector<ToolHold> holds, tool_holds;
   std::vector<glm::dvec3> pressing;    // push per contact in the previous iteration
-  std::vector<ContactPoint> contacts;  // copied, so that Compliance can leave some out
+  std::vector<ContactPoint> contacts;  // copied: springs refer to them after the step
   std::vector<double> added;           // M/dt²
   double last_dt = 0;
   std::vector<glm::dvec3> goal_x;  // y
@@ -105,10 +102,10 @@ struct ImplicitSolver::Impl {
   std::vector<glm::dvec3> gradient, direction, right, lead, trial, reaction, unit_load;
   std::vector<glm::dmat3> rotation;
   CgVectors vectors;
-  std::array<CgVectors, 3> tool_vectors;  // for ToolStiffness
-  std::array<std::vector<glm::dvec3>, 3> tool_right;
+  CgVectors tool_vectors;  // for ToolStiffness
+  std::vector<glm::dvec3> tool_right;
   // Response of the tissue to each tool, kept as a start for the next step.
-  std::array<std::array<std::vector<glm::dvec3>, 3>, 2> tool_left;
+  std::array<std::vector<glm::dvec3>, 2> tool_left;
   bool is_recovering = false;  // from inverted elements
   bool was_refitted = false;   // this step replaced the body by its rest shape
   int recovery_rounds = 0, rounds_once_clean = 0;
@@ -138,6 +135,15 @@ struct ImplicitSolver::Impl {
   BlockMatrix job_stiffness;
   std::vector<double> job_added;
   std::vector<glm::dmat3> job_rotation;
+  // Plan of the first factor after a cut: between Replace and Take it belongs to the thread that
+  // runs it.
+  struct PlanJob {
+    std::shared_ptr<const FactorPlan> before, made;
+    std::vector<int> parent;  // node of `before` of each node
+    std::shared_ptr<const BlockPattern> pattern;
+    FixedAxes fixed;
+  } plan_job;
+  std::shared_ptr<const FactorPlan> next_plan;  // null: not taken
   // Owned by the step.
   std::vector<int>
       job_parent;  // maps the body's nodes to the job's if cut since it began; else empty

@@ -42,7 +42,7 @@ ToolCoupling CouplingAt(double depth, std::uint64_t step) {
   result.gap = -Dent(depth);
   result.push = result.force = {0, 0, BridgedForce(depth)};
   TouchedSkin skin;
-  skin.stiffness = glm::dmat3(Stiffness(depth));
+  skin.stiffness = Stiffness(depth);
   skin.depth = depth;
   ToolCoupling coupling;
   coupling.step = step;

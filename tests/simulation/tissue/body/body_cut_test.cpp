@@ -176,7 +176,7 @@ TEST(BodyCut, ToolThatArrivesCuttingWaitsForThePreparation) {
   spec.is_cuttable = true;
   DeformableBody body(spec, {});
   int waits = 0;
-  body.SetBeforeCut([&] { ++waits; });
+  body.SetFinishSideWork([&] { ++waits; });
   ToolCoupling coupling;
   const auto step = [&](double opening) {
     const WorldTool tool = PunchAt(spec, 2e-3, opening);
@@ -196,12 +196,41 @@ TEST(BodyCut, ToolThatArrivesCuttingWaitsForThePreparation) {
   EXPECT_EQ(body.cut_report().cuts, 1);
 }
 
+// The plan of the factor after a cut is the same wherever it is made.
+TEST(BodyCut, PlanMadeBesideTheStepsChangesNoBit) {
+  BodySpec spec = test::SlabBody();
+  spec.is_cuttable = true;
+  DeformableBody beside(spec, {}), alone(spec, {});
+  const auto step = [&](DeformableBody& body, double opening) {
+    const WorldTool tool = PunchAt(spec, 2e-3, opening);
+    ToolCoupling coupling;
+    return body.Step({&tool, 1}, nullptr, test::kFrame, {&coupling, 1});
+  };
+  beside.SetFinishSideWork([&] {
+    beside.RunSideWork();
+    beside.TakeSideWork();
+  });
+  step(beside, 1.0);
+  beside.BeginSideWork();  // the preparation
+  beside.RunSideWork();
+  beside.TakeSideWork();
+  step(alone, 1.0);
+  for (const double opening : {1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0}) {
+    const bool was_cut = step(beside, opening).was_cut;
+    EXPECT_EQ(step(alone, opening).was_cut, was_cut);
+    EXPECT_EQ(beside.WantsSideWork(), was_cut);
+    if (was_cut) beside.BeginSideWork();
+    EXPECT_TRUE(beside.state().x == alone.state().x) << "opening " << opening;
+  }
+  EXPECT_EQ(beside.cut_report().cuts, 2);
+}
+
 // Nothing waits for ever where there was no memory to prepare: the cut tries it itself.
 TEST(BodyCut, CutPreparesABodyThatCouldNotBePreparedBefore) {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
   DeformableBody body(spec, {});
-  body.SetBeforeCut([] {});
+  body.SetFinishSideWork([] {});
   ToolCoupling coupling;
   const auto step = [&](double opening) {
     const WorldTool tool = PunchAt(spec, 2e-3, opening);

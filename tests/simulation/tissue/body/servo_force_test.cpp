@@ -108,7 +108,8 @@ Errors Measure(Case c, double turn) {
   ToolCoupling coupling;
   coupling.tip = tool.tip;
   const std::span<const ContactPoint> contacts(tissue.contacts.data(), tissue.of_tool);
-  const TouchedSkin skin{tissue.exact->ToolStiffness(0, 1e-6),
+  const glm::dvec3 normal = PushOf(contacts, tissue.results, 0).direction;
+  const TouchedSkin skin{tissue.exact->ToolStiffness(0, normal, 1e-6),
                          tissue.contact.Curvature(contacts, tissue.results, 0),
                          tissue.contact.DepthAtRest(tool.capsules, glm::normalize(before))};
   AddContacts(contacts, tissue.results, 0, skin, tissue.options.stiffness, {1, 0, 0, 0}, 0,

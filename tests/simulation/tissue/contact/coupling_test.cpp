@@ -60,7 +60,7 @@ ToolCoupling CouplingOf(const Bulge& bulge, const glm::dvec3& tip,
   const double x = bulge.Depth(tip);
   const double k = x > 0 ? bulge.k * std::pow(x / bulge.unit, bulge.power - 1) : bulge.k;
   TouchedSkin skin;
-  skin.stiffness = k * glm::outerProduct(normal, normal);
+  skin.stiffness = k;
   skin.curvature = -1.0 / bulge.ball * (glm::dmat3(1.0) - glm::outerProduct(normal, normal));
   skin.depth = std::max(0.0, x);
   ToolCoupling coupling;
@@ -179,7 +179,7 @@ TEST(Coupling, ForceGrowsNoFasterThanItsSprings) {
     result.force = result.push;
     result.gap = -1e-4;
     const glm::dvec3 across = glm::normalize(glm::cross(normal, AnyUnit(random)));
-    TouchedSkin skin{random.Uniform(-100, 600) * glm::outerProduct(normal, normal),
+    TouchedSkin skin{random.Uniform(-100, 600),
                      random.Uniform(-400, 400) * glm::outerProduct(across, across),
                      random.Uniform(0, 0.01)};
     ToolCoupling coupling;
@@ -219,8 +219,7 @@ TEST(Coupling, StiffnessThatCouldAddEnergyIsClamped) {
     ContactResult result;
     result.push = result.force = {0, 0, -random.Uniform(0.01, 3)};
     TouchedSkin skin;
-    for (int c = 0; c < 3; ++c)
-      for (int r = 0; r < 3; ++r) skin.stiffness[c][r] = random.Uniform(-3000, 3000);
+    skin.stiffness = random.Uniform(-3000, 3000);
     skin.depth = random.Uniform(0, 0.01);
     ToolCoupling coupling;
     AddContacts({&contact, 1}, {&result, 1}, 3, skin, kSpring, {1, 0, 0, 0}, 5, coupling);
@@ -248,8 +247,7 @@ TEST(Coupling, NonFiniteValuesAreFaultyAndGiveNoForce) {
     ContactResult result;
     result.push = result.force = {0, 0, 1};
     TouchedSkin skin;
-    skin.stiffness = glm::dmat3(300.0);
-    if (bad == 0) skin.stiffness[2][2] = nan;
+    skin.stiffness = bad == 0 ? nan : 300.0;
     if (bad == 1) skin.curvature[0][0] = nan;
     if (bad == 2) skin.depth = nan;
     if (bad == 3) result.push.x = nan;
