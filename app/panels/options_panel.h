@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "app/panels/widgets.h"
 #include "simulation/core/options.h"
@@ -26,11 +28,21 @@ inline std::string WordsOfField(std::string name) {
 struct OptionsPanelVisitor {
   Ui& ui;
   double longest = std::numeric_limits<double>::infinity();  // m; a slider ends there
+  std::function<bool(std::string_view)> has_effect =
+      {};                          // false: the field is grey; empty: none is
   std::string changed_field = {};  // its words; empty when nothing changed
   bool held = false, released = false;
 
   template <class T, class R>
   void operator()(const char* name, T& field, const R& range, const char* unit, const char* help) {
+    ImGui::BeginDisabled(has_effect && !has_effect(name));
+    Show(name, field, range, unit, help);
+    ImGui::EndDisabled();
+  }
+
+ private:
+  template <class T, class R>
+  void Show(const char* name, T& field, const R& range, const char* unit, const char* help) {
     const std::string words = WordsOfField(name);
     const Border border = PersonBorder(unit);
     if constexpr (std::is_enum_v<T>) {
@@ -75,7 +87,6 @@ struct OptionsPanelVisitor {
     }
   }
 
- private:
   template <class Take>
   void Note(const std::string& words, const Change& change, const Take& take) {
     if (change.changed) {
@@ -97,11 +108,13 @@ struct OptionsPanelVisitor {
 };
 
 // The words of the field that changed, or "". `held` and `released` as in Change. Sliders of
-// lengths end at `longest`, m, where that is less than the field allows.
+// lengths end at `longest`, m, where that is less than the field allows. Fields without effect, by
+// their names in Visit, are grey.
 template <class Options>
 OptionsPanelVisitor OptionsPanel(Ui& ui, Options& options,
-                                 double longest = std::numeric_limits<double>::infinity()) {
-  OptionsPanelVisitor visitor{ui, longest};
+                                 double longest = std::numeric_limits<double>::infinity(),
+                                 std::function<bool(std::string_view)> has_effect = {}) {
+  OptionsPanelVisitor visitor{ui, longest, std::move(has_effect)};
   options.Visit(visitor);
   return visitor;
 }

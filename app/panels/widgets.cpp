@@ -104,7 +104,7 @@ void RecordItem(Ui& ui, const std::string& name, bool enabled, const std::string
   record.x0 = std::max(low.x, clip.Min.x), record.y0 = std::max(low.y, clip.Min.y);
   record.x1 = std::min(high.x, clip.Max.x), record.y1 = std::min(high.y, clip.Max.y);
   record.visible = record.x1 > record.x0 && record.y1 > record.y0;
-  record.enabled = enabled;
+  record.enabled = enabled && (GImGui->LastItemData.InFlags & ImGuiItemFlags_Disabled) == 0;
   record.value = value;
   record.kind = kind;
   const ImGuiWindow* const modal = ImGui::GetTopMostPopupModal();
@@ -119,7 +119,7 @@ void RecordItem(Ui& ui, const std::string& name, bool enabled, const std::string
   const bool is_picture = kind == WidgetKind::kPicture || kind == WidgetKind::kShown;
   ui.widgets.Record(std::move(record));
   if (ui.widgets.IsWanted(name)) ImGui::SetScrollHereY();
-  if (enabled && !is_picture) NoteUse(ui, kind);
+  if (ui.widgets.widgets().back().enabled && !is_picture) NoteUse(ui, kind);
 }
 
 bool HitArea(const char* id, const ImVec2& size, ImGuiButtonFlags flags) {

@@ -178,7 +178,8 @@ DepthMap ReliefByDistance(const std::vector<float>& distance, const GreyPlane& p
 
 void CheckDepthOptions(const DepthOptions& options) {
   CheckOptions(options);
-  if (!(options.red_weight + options.green_weight + options.blue_weight > 0.0))
+  if (HasEffect(options, "red_weight") &&
+      !(options.red_weight + options.green_weight + options.blue_weight > 0.0))
     throw Error(Code::kBadArgument,
                 "the weights of red, green and blue are all 0; raise at least one");
   if (!(options.low_percentile < options.high_percentile))

@@ -50,8 +50,8 @@ DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& option
 // 1 at the pixels that are taken for highlights, before any mark; none where too much is saturated.
 std::vector<std::uint8_t> FoundHighlights(const ColourImage& panorama, const DepthOptions& options);
 
-// Checks the ranges of options, that the weights are not all zero, that low lies below high, and
-// that far is not above near.
+// Checks the ranges of options, that weights which are used are not all zero, that low lies below
+// high, and that far is not above near.
 void CheckDepthOptions(const DepthOptions& options);
 
 }  // namespace arthro::authoring

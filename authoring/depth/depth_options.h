@@ -1,6 +1,8 @@
 // Options of the relief from a panorama's brightness [paper, 3.4].
 #pragma once
 
+#include <string_view>
+
 #include "simulation/core/options.h"
 
 namespace arthro::authoring {
@@ -88,5 +90,9 @@ struct DepthOptions {
     v("iterations", iterations, Range{1, 30}, "", "Iterations of the shading estimator.");
   }
 };
+
+// Whether a change of the field, by its name in Visit, can change the relief or its noise while the
+// other options stay as they are.
+bool HasEffect(const DepthOptions& options, std::string_view field);
 
 }  // namespace arthro::authoring

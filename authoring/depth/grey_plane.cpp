@@ -30,9 +30,12 @@ GreyPlane GreyFromColour(const ColourImage& panorama, const DepthOptions& option
   plane.imaged.resize(count);
   flags.resize(count);
   // Integer weights that sum to 2^16, so that white stays white and every machine agrees.
-  const double sum = options.red_weight + options.green_weight + options.blue_weight;
-  const auto red = static_cast<std::uint32_t>(std::lround(65536.0 * options.red_weight / sum));
-  const auto blue = static_cast<std::uint32_t>(std::lround(65536.0 * options.blue_weight / sum));
+  // Estimators by a light find only highlights in the grey; they use the default weights for it.
+  const DepthOptions weights =
+      options.estimator == DepthEstimator::kPaper ? options : DepthOptions();
+  const double sum = weights.red_weight + weights.green_weight + weights.blue_weight;
+  const auto red = static_cast<std::uint32_t>(std::lround(65536.0 * weights.red_weight / sum));
+  const auto blue = static_cast<std::uint32_t>(std::lround(65536.0 * weights.blue_weight / sum));
   const std::uint32_t green = 65536u - std::min(65536u, red + blue);
   const int threshold = options.surround_threshold;
   ForStripsOfRows(plane.height, [&](int first, int last) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <thread>
 #include <utility>
 
@@ -55,46 +56,132 @@ void FilterBinomial(Plane& data, int width, int height, int passes) {
   if (passes > 0) Filter(data, width, height, BinomialKernel(passes));
 }
 
-void Widen(Plane& data, int width, int height, int gap, const OuterTaps& taps, Plane& scratch) {
-  const auto w = static_cast<std::size_t>(width), g = static_cast<std::size_t>(gap);
-  scratch.assign(w + 2 * g, 0.0f);
-  for (int y = 0; y < height; ++y) {
-    const std::size_t first = static_cast<std::size_t>(y) * w;
-    float* row = data.data() + first;
-    std::copy(row, row + w, scratch.begin() + gap);
-    if (taps.left.empty()) {
-      for (std::size_t x = 0; x < w; ++x)
-        row[x] = 0.25f * (scratch[x] + scratch[x + 2 * g]) + 0.5f * scratch[x + g];
-      continue;
-    }
-    const float *left = taps.left.data() + first, *right = taps.right.data() + first;
-    for (std::size_t x = 0; x < w; ++x)
-      row[x] = left[x] * scratch[x] + right[x] * scratch[x + 2 * g] + 0.5f * scratch[x + g];
+namespace {
+
+// One row: `padded` is the row with `gap` pixels more on either side, `taps` the weights between
+// its pixels from the first padded one on; null: 1/4.
+void WidenRow(float* __restrict row, std::size_t width, std::size_t gap,
+              const float* __restrict padded, const float* __restrict taps) {
+  const float *left = padded, *middle = padded + gap, *right = padded + 2 * gap;
+  if (taps == nullptr) {
+    for (std::size_t x = 0; x < width; ++x)
+      row[x] = 0.25f * (left[x] + right[x]) + 0.5f * middle[x];
+    return;
   }
-  scratch = data;
-  for (int y = 0; y < height; ++y) {
-    const std::size_t first = static_cast<std::size_t>(y) * w;
-    float* row = data.data() + first;
-    for (std::size_t x = 0; x < w; ++x) row[x] *= 0.5f;
-    for (const int from : {y - gap, y + gap}) {
-      if (from < 0 || from >= height) continue;
-      const float* source = scratch.data() + static_cast<std::size_t>(from) * w;
-      if (taps.above.empty()) {
-        for (std::size_t x = 0; x < w; ++x) row[x] += 0.25f * source[x];
-        continue;
-      }
-      const float* tap = (from < y ? taps.above : taps.below).data() + first;
-      for (std::size_t x = 0; x < w; ++x) row[x] += tap[x] * source[x];
+  const float* tap_right = taps + gap;
+  for (std::size_t x = 0; x < width; ++x)
+    row[x] = taps[x] * left[x] + tap_right[x] * right[x] + 0.5f * middle[x];
+}
+
+// Down the columns: `row` becomes 1/2 of itself, a share of `above`, which it replaces, and a share
+// of `below`.
+void WidenColumns(float* __restrict row, float* __restrict above, const float* __restrict below,
+                  const float* __restrict tap_above, const float* __restrict tap_below,
+                  std::size_t width) {
+  if (tap_above == nullptr) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const float own = row[x];
+      row[x] = (0.5f * own + 0.25f * above[x]) + 0.25f * below[x];
+      above[x] = own;
     }
+    return;
+  }
+  for (std::size_t x = 0; x < width; ++x) {
+    const float own = row[x];
+    row[x] = (0.5f * own + tap_above[x] * above[x]) + tap_below[x] * below[x];
+    above[x] = own;
   }
 }
 
-void WidenAll(std::span<Plane* const> planes, int width, int height, int gap,
-              const OuterTaps& taps) {
+}  // namespace
+
+void Widen(Plane& data, int width, int height, int gap, const OuterTaps& taps,
+           const PixelBounds& window, Plane& scratch) {
+  const auto stride = static_cast<std::size_t>(width), g = static_cast<std::size_t>(gap);
+  const auto w = static_cast<std::size_t>(window.width()),
+             left = static_cast<std::size_t>(window.left);
+  const bool has_taps = !taps.right.empty();
+  // A padded row and the weights between its pixels, where it begins at the border; a row of zeros
+  // beyond the border; the last `gap` rows as they were before this went down the columns.
+  scratch.assign(2 * (w + 2 * g) + w + g * w, 0.0f);
+  float *const padded = scratch.data(), *const weights = padded + w + 2 * g,
+               *const none = weights + w + 2 * g, *const ring = none + w;
+  std::fill(weights, none, 0.25f);
+  const std::size_t before = std::min(left, g),
+                    after = std::min(stride - static_cast<std::size_t>(window.right), g);
+  const auto start = [&](int y) { return static_cast<std::size_t>(y) * stride + left; };
+  const auto across = [&](int y) {
+    float* const row = data.data() + start(y);
+    std::copy(row - before, row + w + after, padded + g - before);
+    const float* of_row = has_taps ? taps.right.data() + start(y) - before : nullptr;
+    if (has_taps && before < g) {
+      std::copy_n(of_row, w + before, weights + g - before);
+      of_row = weights;
+    }
+    WidenRow(row, w, g, padded, of_row);
+  };
+  const int first = std::max(window.top - gap, 0), last = std::min(window.bottom + gap, height);
+  for (int y = first; y < std::min(first + gap, last); ++y) across(y);
+  for (int y = first; y < last; ++y) {
+    if (y + gap < last) across(y + gap);
+    // Weights of rows beyond the border do not count: their values are 0.
+    const float* const tap_below = has_taps ? taps.below.data() + start(y) : nullptr;
+    const float* const tap_above =
+        has_taps && y >= gap ? taps.below.data() + start(y - gap) : tap_below;
+    WidenColumns(data.data() + start(y), ring + static_cast<std::size_t>(y % gap) * w,
+                 y + gap < last ? data.data() + start(y + gap) : none, tap_above, tap_below, w);
+  }
+}
+
+void Dilate(Plane& data, int width, int height, int reach) {
+  const auto w = static_cast<std::size_t>(width), r = static_cast<std::size_t>(reach),
+             h = static_cast<std::size_t>(height);
+  constexpr float kNothing = std::numeric_limits<float>::infinity();
+  // A window is doubled in length until a further doubling would exceed it; two of that length
+  // cover it.
+  std::size_t longest = 1;
+  while (2 * longest <= 2 * r + 1) longest *= 2;
+  const auto put_most = [](float* __restrict into, const float* __restrict from,
+                           std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) into[i] = into[i] < from[i] ? from[i] : into[i];
+  };
+  Plane padded(w + 2 * r), spare(w + 2 * r);
+  for (std::size_t y = 0; y < h; ++y) {
+    float* const row = data.data() + y * w;
+    std::fill(padded.begin(), padded.end(), -kNothing);
+    std::copy(row, row + w, padded.begin() + static_cast<std::ptrdiff_t>(r));
+    for (std::size_t length = 1; length < longest; length *= 2) {
+      spare = padded;
+      put_most(padded.data(), spare.data() + length, padded.size() - length);
+    }
+    std::copy_n(padded.data(), w, row);
+    put_most(row, padded.data() + 2 * r + 1 - longest, w);
+  }
+  // The same down the columns, with rows beyond the border left out.
+  Plane tall((h + 2 * r) * w, -kNothing);
+  std::copy(data.begin(), data.end(), tall.begin() + static_cast<std::ptrdiff_t>(r * w));
+  for (std::size_t length = 1; length < longest; length *= 2)
+    for (std::size_t y = 0; y + length < h + 2 * r; ++y)
+      put_most(tall.data() + y * w, tall.data() + (y + length) * w, w);
+  for (std::size_t y = 0; y < h; ++y) {
+    float* const row = data.data() + y * w;
+    std::copy_n(tall.data() + y * w, w, row);
+    put_most(row, tall.data() + (y + 2 * r + 1 - longest) * w, w);
+  }
+}
+
+void ForRowsOnTwoThreads(int begin, int end, const std::function<void(int, int)>& rows) {
+  const int half = begin + (end - begin) / 2;
+  const std::jthread other([&] { rows(half, end); });
+  rows(begin, half);
+}
+
+void WidenAll(std::span<Plane* const> planes, int width, int height, int gap, const OuterTaps& taps,
+              const PixelBounds& window) {
   const auto every_other = [&](std::size_t first) {
     Plane scratch;
     for (std::size_t i = first; i < planes.size(); i += 2)
-      Widen(*planes[i], width, height, gap, taps, scratch);
+      Widen(*planes[i], width, height, gap, taps, window, scratch);
   };
   const std::jthread other(every_other, std::size_t{1});
   every_other(0);

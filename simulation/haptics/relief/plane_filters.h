@@ -2,29 +2,42 @@
 // border have no mass: their value is 0.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
+
+#include "simulation/scene/pixel_bounds.h"
 
 namespace arthro::simulation {
 
 using Plane = std::vector<float>;
 
-// Weights of the outer taps of (1 2 1)/4 per pixel, for one gap: 1/4, and less to 0 where a tap
-// lies beyond a step. Empty where there is no step.
+// Weights of the outer taps of (1 2 1)/4, for one gap, between each pixel and the one that lies a
+// gap to its right or below it: 1/4, and less to 0 where a step lies between them. Empty where
+// there is no step.
 struct OuterTaps {
-  Plane left, right, above, below;
+  Plane right, below;
 };
 
 // Applies `passes` passes of (1 2 1)/4 in both directions, as one binomial kernel.
 void FilterBinomial(Plane& data, int width, int height, int passes);
 
 // Applies (1 2 1)/4 with `gap` pixels between its taps in both directions: adds gap²/2 to the
-// variance, where all taps count. `scratch` may have any size.
-void Widen(Plane& data, int width, int height, int gap, const OuterTaps& taps, Plane& scratch);
+// variance, where all taps count. `scratch` may have any size. Only the pixels of `window` get
+// their values; those within a gap of it are lost.
+void Widen(Plane& data, int width, int height, int gap, const OuterTaps& taps,
+           const PixelBounds& window, Plane& scratch);
 
 // Widens several planes on two threads. Each is widened as a whole by one of them, so that the
 // result does not depend on the threads.
-void WidenAll(std::span<Plane* const> planes, int width, int height, int gap,
-              const OuterTaps& taps);
+void WidenAll(std::span<Plane* const> planes, int width, int height, int gap, const OuterTaps& taps,
+              const PixelBounds& window);
+
+// Replaces each value by the maximum over the square of (2 reach + 1) pixels about it.
+void Dilate(Plane& data, int width, int height, int reach);
+
+// Runs `rows(first, last)` on two halves of the rows from `begin` to `end`, on two threads. Each
+// call writes only its own rows, so that the result does not depend on the threads.
+void ForRowsOnTwoThreads(int begin, int end, const std::function<void(int first, int last)>& rows);
 
 }  // namespace arthro::simulation

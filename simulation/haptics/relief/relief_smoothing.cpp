@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -21,13 +23,12 @@ constexpr float kSameSide = 2.0f, kOtherSide = 4.0f;
 
 // `near`: how near each pixel is to a step; empty: there is none.
 OuterTaps TapsBetween(const Plane& near, const Plane& heights, const Plane& sigma, int width,
-                      int height, int gap) {
+                      int height, int gap, const PixelBounds& window) {
   OuterTaps taps;
   if (near.empty()) return taps;
   const auto w = static_cast<std::size_t>(width), g = static_cast<std::size_t>(gap);
-  const std::size_t all = near.size();
-  for (Plane* plane : {&taps.left, &taps.right, &taps.above, &taps.below})
-    plane->assign(all, 0.25f);
+  taps.right.resize(near.size());
+  taps.below.resize(near.size());
   const auto tap = [&](std::size_t a, std::size_t b) {
     const float beside = std::max(near[a], near[b]), error = std::max(sigma[a], sigma[b]);
     if (!(beside > 0.0f) || !(error > 0.0f)) return 0.25f;
@@ -35,13 +36,18 @@ OuterTaps TapsBetween(const Plane& near, const Plane& heights, const Plane& sigm
     const float s = std::clamp((off - kSameSide) / (kOtherSide - kSameSide), 0.0f, 1.0f);
     return 0.25f * (1.0f - beside * s * s * (3.0f - 2.0f * s));
   };
-  for (int y = 0; y < height; ++y) {
-    const std::size_t row = static_cast<std::size_t>(y) * w;
-    for (std::size_t i = row; i + g < row + w; ++i)
-      taps.right[i] = taps.left[i + g] = tap(i, i + g);
-  }
-  for (std::size_t i = 0; i + g * w < all; ++i)
-    taps.below[i] = taps.above[i + g * w] = tap(i, i + g * w);
+  const PixelBounds around = Grown(window, gap, width, height);
+  ForRowsOnTwoThreads(around.top, around.bottom, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      const std::size_t row = static_cast<std::size_t>(y) * w,
+                        begin = row + static_cast<std::size_t>(around.left),
+                        end = row + static_cast<std::size_t>(around.right);
+      for (std::size_t i = begin; i < end; ++i)
+        taps.right[i] = i + g < row + w ? tap(i, i + g) : 0.25f;
+      for (std::size_t i = begin; i < end; ++i)
+        taps.below[i] = y + gap < height ? tap(i, i + g * w) : 0.25f;
+    }
+  });
   return taps;
 }
 
@@ -52,6 +58,7 @@ struct Frame {
   int width = 0, height = 0;  // size of the whole
 };
 Frame WholeOf(const DepthMap& map) { return {0, 0, map.width, map.height}; }
+PixelBounds AllOf(const DepthMap& map) { return {0, 0, map.width, map.height}; }
 
 // Sums of a normalised convolution.
 struct Sums {
@@ -153,7 +160,7 @@ Plane SmoothSigma(const DepthMap& depth, const DepthMap& sigma) {
   Plane scratch;
   for (Plane* plane : {&sums.value, &sums.mass})
     for (const int gap : {1, 1, 2, 2, 4})
-      Widen(*plane, depth.width, depth.height, gap, {}, scratch);
+      Widen(*plane, depth.width, depth.height, gap, {}, {0, 0, depth.width, depth.height}, scratch);
   Plane smooth = Ratio(sums);
   for (float& variance : smooth) variance = std::sqrt(variance);
   return smooth;
@@ -185,16 +192,18 @@ WantedSmoothing SmoothingFor(const DepthMap& depth, const Plane& height, const P
                              const Backdrop& backdrop, const NoiseLimits& limits,
                              const Frame& frame) {
   WantedSmoothing wanted{Plane(height.size(), 0.0f), Plane(height.size(), 0.0f)};
-  for (int y = 0; y < depth.height; ++y)
-    for (int x = 0; x < depth.width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(depth.width) +
-                            static_cast<std::size_t>(x);
-      if (!(sigma[i] > 0.0f) || !std::isfinite(depth.relief[i])) continue;
-      const double px_per_m = PixelsPerMetre(backdrop, height[i], frame.left + x, frame.top + y);
-      if (!(px_per_m > 0.0)) continue;
-      wanted.deviation[i] = static_cast<float>(SmoothingOf(sigma[i], limits) * px_per_m);
-      wanted.pixel_size[i] = static_cast<float>(1.0 / px_per_m);
-    }
+  ForRowsOnTwoThreads(0, depth.height, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      for (int x = 0; x < depth.width; ++x) {
+        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(depth.width) +
+                              static_cast<std::size_t>(x);
+        if (!(sigma[i] > 0.0f) || !std::isfinite(depth.relief[i])) continue;
+        const double px_per_m = PixelsPerMetre(backdrop, height[i], frame.left + x, frame.top + y);
+        if (!(px_per_m > 0.0)) continue;
+        wanted.deviation[i] = static_cast<float>(SmoothingOf(sigma[i], limits) * px_per_m);
+        wanted.pixel_size[i] = static_cast<float>(1.0 / px_per_m);
+      }
+  });
   return wanted;
 }
 
@@ -204,7 +213,7 @@ Plane NearStepsOf(const DepthMap& depth, const Plane& sigma, const WantedSmoothi
   Plane scratch;
   for (Plane* plane : {&sums.value, &sums.mass})
     for (const int gap : {1, 1, 2, 2})  // a standard deviation of 2.2 px
-      Widen(*plane, depth.width, depth.height, gap, {}, scratch);
+      Widen(*plane, depth.width, depth.height, gap, {}, {0, 0, depth.width, depth.height}, scratch);
   Plane smooth = Ratio(sums);
   for (std::size_t i = 0; i < smooth.size(); ++i)
     if (!std::isfinite(depth.relief[i])) smooth[i] = depth.relief[i];
@@ -214,55 +223,126 @@ Plane NearStepsOf(const DepthMap& depth, const Plane& sigma, const WantedSmoothi
   // Fades over some 10 px; pixels beyond the border count as those beside it.
   Sums fading{std::move(near), Plane(depth.relief.size(), 1.0f)};
   for (Plane* plane : {&fading.value, &fading.mass})
-    for (const int gap : {1, 2, 4, 8}) Widen(*plane, depth.width, depth.height, gap, {}, scratch);
+    for (const int gap : {1, 2, 4, 8})
+      Widen(*plane, depth.width, depth.height, gap, {}, {0, 0, depth.width, depth.height}, scratch);
   return Ratio(fading);
 }
 
-// `widest`: of the smoothing, px, where it is asked for.
-TouchedRelief SmoothPart(const DepthMap& depth, int passes, const DepthMap& sigma,
-                         const Backdrop& backdrop, const NoiseLimits& limits, const Frame& frame,
-                         float* widest_px = nullptr, const std::atomic<bool>* stop = nullptr) {
+// Gaps of the growing kernels of a smoothing of this standard deviation, px.
+std::vector<int> GapsOf(double deviation_px) {
+  std::vector<int> gaps;
+  double variance = 0;  // beyond the usual one, px²
+  for (int growth = 0; variance < deviation_px * deviation_px; ++growth) {
+    gaps.push_back(1 << (growth / 2));
+    variance += 0.5 * gaps.back() * gaps.back();
+  }
+  return gaps;
+}
+
+// Pixels to each side that such a smoothing reads.
+int ReachOf(double deviation_px) {
+  const std::vector<int> gaps = GapsOf(deviation_px);
+  return std::accumulate(gaps.begin(), gaps.end(), 0);
+}
+
+// Pixels that each growth has to compute, so that those of `wanted` are right after the last one:
+// the pixels that still ask for smoothing, and what the next growth reads. Growths that no pixel
+// asks for are left out at the end.
+std::vector<PixelBounds> WindowsOf(const PixelBounds& wanted, const Plane& deviation,
+                                   const std::vector<int>& gaps, int width, int height) {
+  std::vector<PixelBounds> asking(gaps.size());
+  float variance = 0.0f;  // beyond the usual one, px², summed in the order of SmoothPart
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    for (int y = wanted.top; y < wanted.bottom; ++y) {
+      const float* const row =
+          deviation.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+      const auto asks = [&](float d) { return d * d - variance > 0.0f; };
+      const float* const first = std::find_if(row + wanted.left, row + wanted.right, asks);
+      if (first == row + wanted.right) continue;
+      const float* last = row + wanted.right - 1;
+      while (!asks(*last)) --last;
+      asking[i] = Joined(
+          asking[i], {static_cast<int>(first - row), y, static_cast<int>(last - row) + 1, y + 1});
+    }
+    variance += 0.5f * static_cast<float>(gaps[i]) * static_cast<float>(gaps[i]);
+  }
+  while (!asking.empty() && asking.back().is_empty()) asking.pop_back();
+  for (std::size_t i = asking.size(); i-- > 1;)
+    asking[i - 1] = Joined(asking[i - 1], Grown(asking[i], gaps[i], width, height));
+  return asking;
+}
+
+struct SmoothedPart {
+  TouchedRelief touched;
+  float widest = 0;  // px, of the smoothing
+};
+
+// `wanted`: pixels of `depth` whose heights are asked for.
+SmoothedPart SmoothPart(const DepthMap& depth, int passes, const DepthMap& sigma,
+                        const Backdrop& backdrop, const NoiseLimits& limits, const Frame& frame,
+                        const PixelBounds& wanted, const std::atomic<bool>* stop = nullptr) {
   Sums sums = SumsOf(depth, passes);
-  TouchedRelief touched{Ratio(sums), SmoothSigma(depth, sigma)};
-  if (touched.sigma.empty()) return touched;
+  SmoothedPart part{{Ratio(sums), SmoothSigma(depth, sigma)}};
+  TouchedRelief& touched = part.touched;
+  if (touched.sigma.empty()) return part;
   const int w = depth.width, h = depth.height;
-  const WantedSmoothing wanted =
+  const WantedSmoothing smoothing =
       SmoothingFor(depth, touched.height, touched.sigma, backdrop, limits, frame);
-  const float widest = *std::max_element(wanted.deviation.begin(), wanted.deviation.end());
-  if (widest_px != nullptr) *widest_px = widest;
-  const Plane near = widest > 0.0f ? NearStepsOf(depth, touched.sigma, wanted) : Plane();
+  part.widest = *std::max_element(smoothing.deviation.begin(), smoothing.deviation.end());
+  const Plane near = part.widest > 0.0f ? NearStepsOf(depth, touched.sigma, smoothing) : Plane();
 
   Moments moments(std::move(sums), w, h, frame);
   Plane before = touched.height;
+  std::vector<int> gaps = GapsOf(static_cast<double>(part.widest));
+  while (!gaps.empty() && gaps.back() >= std::max(w, h)) gaps.pop_back();
+  const std::vector<PixelBounds> windows = WindowsOf(wanted, smoothing.deviation, gaps, w, h);
   float variance = 0.0f;  // beyond the usual one, px²
-  for (int growth = 0; variance < widest * widest; ++growth) {
-    const int gap = 1 << (growth / 2);
-    if (gap >= std::max(w, h)) break;
+  for (std::size_t growth = 0; growth < windows.size(); ++growth) {
     if (stop != nullptr && stop->load(std::memory_order_relaxed))
       throw Error(Code::kCancelled, "stopped");
+    const PixelBounds& window = windows[growth];
+    const int gap = gaps[growth];
     const float added = 0.5f * static_cast<float>(gap) * static_cast<float>(gap);
-    const OuterTaps taps = TapsBetween(near, before, touched.sigma, w, h, gap);
-    WidenAll(moments.All(), w, h, gap, taps);
-    for (int y = 0; y < h; ++y)
-      for (int x = 0; x < w; ++x) {
-        const std::size_t i =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
-        const float rest = wanted.deviation[i] * wanted.deviation[i] - variance;
-        if (!(rest > 0.0f)) continue;
-        const float after = moments.PlaneAt(x, y);
-        touched.height[i] += std::min(1.0f, rest / added) * (after - before[i]);
-        before[i] = after;
-      }
+    const OuterTaps taps = TapsBetween(near, before, touched.sigma, w, h, gap, window);
+    WidenAll(moments.All(), w, h, gap, taps, window);
+    ForRowsOnTwoThreads(window.top, window.bottom, [&](int first, int last) {
+      for (int y = first; y < last; ++y)
+        for (int x = window.left; x < window.right; ++x) {
+          const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
+                                static_cast<std::size_t>(x);
+          const float rest = smoothing.deviation[i] * smoothing.deviation[i] - variance;
+          if (!(rest > 0.0f)) continue;
+          const float after = moments.PlaneAt(x, y);
+          touched.height[i] += std::min(1.0f, rest / added) * (after - before[i]);
+          before[i] = after;
+        }
+    });
     variance += added;
   }
-  return touched;
+  return part;
+}
+
+void Sort(float& a, float& b) {
+  const float low = std::min(a, b);
+  b = std::max(a, b);
+  a = low;
+}
+
+// Middle of nine values by 19 exchanges of two.
+float MedianOfNine(std::array<float, 9> p) {
+  Sort(p[1], p[2]), Sort(p[4], p[5]), Sort(p[7], p[8]), Sort(p[0], p[1]), Sort(p[3], p[4]);
+  Sort(p[6], p[7]), Sort(p[1], p[2]), Sort(p[4], p[5]), Sort(p[7], p[8]), Sort(p[0], p[3]);
+  Sort(p[5], p[8]), Sort(p[4], p[7]), Sort(p[3], p[6]), Sort(p[1], p[4]), Sort(p[2], p[5]);
+  Sort(p[4], p[7]), Sort(p[4], p[2]), Sort(p[6], p[4]), Sort(p[4], p[2]);
+  return p[4];
 }
 
 // Medians of 3 x 3 pixels: they remove the outliers of white noise, and keep steps sharp.
 DepthMap MediansOf(const DepthMap& depth, const DepthMap& sigma) {
   DepthMap quiet = depth;
-  if (sigma.relief.size() == depth.relief.size())
-    for (int y = 0; y < depth.height; ++y)
+  if (sigma.relief.size() != depth.relief.size()) return quiet;
+  ForRowsOnTwoThreads(0, depth.height, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
       for (int x = 0; x < depth.width; ++x) {
         if (!std::isfinite(depth.at(x, y)) || !(sigma.at(x, y) > 0.0f)) continue;
         std::array<float, 9> around{};
@@ -270,21 +350,32 @@ DepthMap MediansOf(const DepthMap& depth, const DepthMap& sigma) {
         for (int v = std::max(y - 1, 0); v <= std::min(y + 1, depth.height - 1); ++v)
           for (int u = std::max(x - 1, 0); u <= std::min(x + 1, depth.width - 1); ++u)
             if (std::isfinite(depth.at(u, v))) around[known++] = depth.at(u, v);
+        if (known == around.size()) {
+          quiet.at(x, y) = MedianOfNine(around);
+          continue;
+        }
         const auto middle = around.begin() + static_cast<std::ptrdiff_t>(known / 2);
         std::nth_element(around.begin(), middle,
                          around.begin() + static_cast<std::ptrdiff_t>(known));
         quiet.at(x, y) = *middle;
       }
+  });
   return quiet;
 }
 
-DepthMap WithoutNoiseIn(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop,
-                        const Frame& frame, float* widest_px = nullptr,
-                        const std::atomic<bool>* stop = nullptr) {
-  DepthMap quiet = MediansOf(depth, sigma);
-  const TouchedRelief touched = SmoothPart(quiet, 0, sigma, backdrop, {}, frame, widest_px, stop);
-  for (std::size_t i = 0; i < quiet.relief.size(); ++i)
-    if (std::isfinite(depth.relief[i])) quiet.relief[i] = touched.height[i];
+struct QuietMap {
+  DepthMap relief;
+  float widest = 0;  // px, of the smoothing
+};
+
+QuietMap WithoutNoiseIn(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop,
+                        const Frame& frame, const PixelBounds& wanted,
+                        const std::atomic<bool>* stop) {
+  QuietMap quiet{MediansOf(depth, sigma)};
+  const SmoothedPart part = SmoothPart(quiet.relief, 0, sigma, backdrop, {}, frame, wanted, stop);
+  quiet.widest = part.widest;
+  for (std::size_t i = 0; i < depth.relief.size(); ++i)
+    if (std::isfinite(depth.relief[i])) quiet.relief.relief[i] = part.touched.height[i];
   return quiet;
 }
 
@@ -294,18 +385,6 @@ DepthMap CutOut(const DepthMap& map, const PixelBounds& box) {
     std::copy_n(&map.relief[static_cast<std::size_t>(box.top + y) * map.width + box.left],
                 box.width(), &part.relief[static_cast<std::size_t>(y) * box.width()]);
   return part;
-}
-
-// Pixels to each side that the smoothing of this standard deviation reads: gaps of its taps.
-int ReachOf(double deviation_px) {
-  int reach = 0;
-  double variance = 0;
-  for (int growth = 0; variance < deviation_px * deviation_px; ++growth) {
-    const int gap = 1 << (growth / 2);
-    reach += gap;
-    variance += 0.5 * gap * gap;
-  }
-  return reach;
 }
 
 // Widest smoothing around a rectangle, px, from every eighth pixel and its standard error.
@@ -329,12 +408,12 @@ TouchedRelief SmoothRelief(const DepthMap& depth, int passes) {
 
 TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& sigma,
                            const Backdrop& backdrop, const NoiseLimits& limits) {
-  return SmoothPart(depth, passes, sigma, backdrop, limits, WholeOf(depth));
+  return SmoothPart(depth, passes, sigma, backdrop, limits, WholeOf(depth), AllOf(depth)).touched;
 }
 
 DepthMap WithoutNoise(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop,
                       const std::atomic<bool>* stop) {
-  return WithoutNoiseIn(depth, sigma, backdrop, WholeOf(depth), nullptr, stop);
+  return WithoutNoiseIn(depth, sigma, backdrop, WholeOf(depth), AllOf(depth), stop).relief;
 }
 
 QuietPart WithoutNoiseAround(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop,
@@ -355,20 +434,17 @@ QuietPart WithoutNoiseAround(const DepthMap& depth, const DepthMap& sigma, const
       reach = guess;
       continue;
     }
-    float widest = 0;
-    const DepthMap quiet = WithoutNoiseIn(CutOut(depth, read), CutOut(sigma, read), backdrop,
-                                          {read.left, read.top, width, height}, &widest, stop);
-    if (const int wanted = ReachOf(static_cast<double>(widest)); wanted > reach) {
+    const PixelBounds inner{box.left - read.left, box.top - read.top, box.right - read.left,
+                            box.bottom - read.top};
+    const QuietMap quiet = WithoutNoiseIn(CutOut(depth, read), CutOut(sigma, read), backdrop,
+                                          {read.left, read.top, width, height}, inner, stop);
+    if (const int wanted = ReachOf(static_cast<double>(quiet.widest)); wanted > reach) {
       reach = wanted;
       continue;
     }
-    return {box,
-            CutOut(quiet, {box.left - read.left, box.top - read.top, box.right - read.left,
-                           box.bottom - read.top}),
-            read.width() * read.height()};
+    return {box, CutOut(quiet.relief, inner), read.width() * read.height()};
   }
-  return {whole, WithoutNoiseIn(depth, sigma, backdrop, WholeOf(depth), nullptr, stop),
-          width * height};
+  return {whole, WithoutNoise(depth, sigma, backdrop, stop), width * height};
 }
 
 }  // namespace arthro::simulation

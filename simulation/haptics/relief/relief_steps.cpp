@@ -7,39 +7,12 @@
 #include <limits>
 #include <utility>
 
+#include "simulation/haptics/relief/plane_filters.h"
+
 namespace arthro::simulation {
 namespace {
 
-using Plane = std::vector<float>;
 constexpr float kNothing = std::numeric_limits<float>::infinity();
-
-// Maximum over the square of (2 reach + 1) pixels about each pixel.
-void Dilate(Plane& plane, int width, int height, int reach) {
-  const auto w = static_cast<std::size_t>(width), r = static_cast<std::size_t>(reach);
-  Plane padded(w + 2 * r), spare(w + 2 * r);
-  for (int y = 0; y < height; ++y) {
-    float* row = plane.data() + static_cast<std::size_t>(y) * w;
-    std::fill(padded.begin(), padded.end(), -kNothing);
-    std::copy(row, row + w, padded.begin() + static_cast<std::ptrdiff_t>(r));
-    // Doubles the length of the window until a further doubling would exceed it.
-    std::size_t length = 1;
-    for (; 2 * length <= 2 * r + 1; length *= 2) {
-      spare = padded;
-      for (std::size_t x = 0; x + length < padded.size(); ++x)
-        padded[x] = std::max(spare[x], spare[x + length]);
-    }
-    for (std::size_t x = 0; x < w; ++x)
-      row[x] = std::max(padded[x], padded[x + 2 * r + 1 - length]);
-  }
-  const Plane across = plane;
-  for (int y = 0; y < height; ++y) {
-    float* row = plane.data() + static_cast<std::size_t>(y) * w;
-    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v) {
-      const float* from = across.data() + static_cast<std::size_t>(v) * w;
-      for (std::size_t x = 0; x < w; ++x) row[x] = std::max(row[x], from[x]);
-    }
-  }
-}
 
 // A line of at least the least height has parts of half of it.
 constexpr float kLeastShare = 0.5f;

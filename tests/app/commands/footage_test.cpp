@@ -27,6 +27,7 @@
 #include "simulation/scene/json/lens_io.h"
 #include "tests/app/commands/settle.h"
 #include "tests/support/build_paths.h"
+#include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::app {
@@ -122,6 +123,18 @@ TEST_F(Footage, AFolderOfPicturesComesOnTheBoardFrameByFrame) {
   }
   EXPECT_EQ(WordsOfClip(board), "6 frames · 40 × 30 px");
   EXPECT_TRUE(WordsOfResult(board).empty());
+}
+
+// The board was closed with that of the document before, so a script's line did nothing.
+TEST_F(Footage, ANewSceneFromAClipByNameShowsItsBoard) {
+  OpenScene(state, test::WriteSmallScene(temp / "knee"));
+  Settle();
+  EXPECT_EQ(RunByName(state, "new-from-footage", clip), "");
+  Settle();
+  EXPECT_TRUE(ShowsFootage(state));
+  ASSERT_TRUE(state.steps.panorama->footage);
+  EXPECT_EQ(state.steps.panorama->footage->frames(), kFrames);
+  EXPECT_EQ(state.document().panorama, nullptr);
 }
 
 TEST_F(Footage, OnePictureOfAFolderStandsForAllOfThem) {

@@ -114,5 +114,27 @@ expect "Saved in"
   EXPECT_EQ(saved.depth_origin->at(65, 40), ReliefOrigin::kInterpolated);
 }
 
+// Weights of the grey could be moved with an estimator that does not use them.
+TEST_F(DepthMapWindow, OptionsThatTheEstimatorDoesNotUseAreGrey) {
+  Drive(R"(click "Scope view"
+click "Make depth from the picture"
+click Estimator
+click paper
+wait job
+expect enabled "Red weight"
+expect enabled "Colour filter"
+expect disabled Iterations
+click Estimator
+click shading
+wait job
+expect disabled "Red weight"
+expect disabled "Green weight"
+expect disabled "Colour filter"
+expect disabled Law
+expect enabled Gamma
+expect enabled Iterations
+)");
+}
+
 }  // namespace
 }  // namespace arthro

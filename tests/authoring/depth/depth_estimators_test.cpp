@@ -3,12 +3,15 @@
 #include <cstring>
 #include <ctime>
 #include <limits>
+#include <string>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
 #include "authoring/depth/depth_filter.h"
 #include "authoring/depth/depth_preview.h"
+#include "authoring/depth/noise/depth_noise.h"
 #include "authoring/depth/noise/guided_smoothing.h"
 #include "simulation/core/error.h"
 #include "tests/support/depth_score.h"
@@ -34,6 +37,11 @@ DepthOptions Grey() {
   DepthOptions options = OptionsOf(DepthEstimator::kPaper);
   options.red_weight = options.green_weight = options.blue_weight = 1;
   return options;
+}
+
+bool IsOther(const DepthMap& a, const DepthMap& b) {
+  return a.relief.size() != b.relief.size() ||
+         std::memcmp(a.relief.data(), b.relief.data(), a.relief.size() * sizeof(float)) != 0;
 }
 
 DepthScore MeanScore(const DepthOptions& options, double tissue, double noise, double highlights) {
@@ -243,6 +251,65 @@ TEST(GuidedSmoothing, TakesNoiseAwayAndKeepsAStep) {
   cv::meanStdDev(values(cv::Rect(5, 5, 25, 50)), mean, before);
   cv::meanStdDev(smooth(cv::Rect(5, 5, 25, 50)), mean, after);
   EXPECT_LT(after[0], 0.4 * before[0]);
+}
+
+// Changes the field with the number `index` and gives its name.
+struct FieldChange {
+  int index;
+  std::string name = {};
+  template <class T, class R>
+  void operator()(const char* field, T& value, const R& range, const char*, const char*) {
+    if (index-- != 0) return;
+    name = field;
+    if constexpr (std::is_enum_v<T>)
+      value = value == range.words[0].first ? range.words[1].first : range.words[0].first;
+    else if constexpr (std::is_same_v<T, bool>)
+      value = !value;
+    else
+      value = static_cast<T>(value == range.min ? range.min + 0.02 * (range.max - range.min)
+                                                : 0.5 * (value + range.min));
+  }
+};
+
+TEST(DepthOptions, AFieldHasAnEffectIffItChangesTheRelief) {
+  const test::DepthScene scene = test::MakeDepthScene({21, 120, 1, 0.01, 0.6, 1.6, 0.3});
+  for (const DepthEstimator estimator :
+       {DepthEstimator::kPaper, DepthEstimator::kInverseSquareRed, DepthEstimator::kShading})
+    for (const DepthLaw law : {DepthLaw::kLinear, DepthLaw::kInverseSquare}) {
+      DepthOptions options = OptionsOf(estimator);
+      options.law = law;
+      options.surround_threshold = 40;
+      const DepthMap before = DepthFromColour(scene.picture, options),
+                     noise = NoiseOfDepth(before, options.texture_size);
+      for (int i = 0;; ++i) {
+        DepthOptions other = options;
+        FieldChange change{i};
+        other.Visit(change);
+        if (change.name.empty()) break;
+        // A threshold and a rim change the relief only where there is what they seek.
+        const DepthMap after = DepthFromColour(scene.picture, other);
+        const DepthMap noise_after = NoiseOfDepth(after, other.texture_size);
+        const bool is_same = !IsOther(before, after) && !IsOther(noise, noise_after);
+        const std::string words =
+            change.name + " of estimator " + std::to_string(static_cast<int>(estimator));
+        const bool is_certain =
+            change.name != "surround_threshold" && change.name != "border_margin";
+        if (!HasEffect(options, change.name)) {
+          EXPECT_TRUE(is_same) << words;
+        } else if (is_certain) {
+          EXPECT_FALSE(is_same) << words;
+        }
+      }
+    }
+}
+
+// The weights were refused although they are not used.
+TEST(DepthOptions, WeightsOfZeroAreRefusedOnlyWhereTheyCount) {
+  DepthOptions options;
+  options.red_weight = options.green_weight = options.blue_weight = 0;
+  EXPECT_THROW(CheckDepthOptions(options), Error);
+  options.estimator = DepthEstimator::kShading;
+  EXPECT_NO_THROW(CheckDepthOptions(options));
 }
 
 }  // namespace

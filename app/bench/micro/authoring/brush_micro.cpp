@@ -84,6 +84,13 @@ class Release {
     return WithShift(shown_, size_, before, after, drawn_.backdrop,
                      SmallChange(before, after).value_or(PixelBounds()));
   }
+  // Beside the window after that: the same without the noise of the stroke.
+  DrawnRelief Quiet() const {
+    const ReliefMaps before{drawn_.before.relief, drawn_.before.sigma},
+        after{copy_.relief, copy_.sigma};
+    return WithChange(shown_, size_, after, drawn_.backdrop,
+                      SmallChange(before, after).value_or(PixelBounds()));
+  }
   const MendedDepth& map() const { return copy_; }
 
  private:
@@ -158,6 +165,13 @@ MicroGroup BrushMicro(bool quick) {
                              error_of_release});
   group.functions.push_back({"release at " + size + ", window's thread",
                              [=] { KeepAlive(release()->OnWindowThread()); }, error_of_release});
+  const auto released = MadeOnce([=] {
+    auto made = std::make_shared<Release>(drawn());
+    made->OnWindowThread();
+    return made;
+  });
+  group.functions.push_back(
+      {"full quality after it at " + size, [=] { KeepAlive(released()->Quiet()); }, {}});
   group.functions.push_back(
       {"rectangle that differs between two maps",
        [=] { KeepAlive(DifferenceOf(drawn().before.relief, drawn().after.relief)); },

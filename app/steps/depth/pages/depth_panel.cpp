@@ -1,5 +1,6 @@
 // Step 2: how the panorama's brightness becomes relief.
 #include <cfloat>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -91,7 +92,9 @@ void DepthPanel(Ui& ui, EditorState& state) {
                              MmFromMetres(radius)),
                  kWarning);
   ImGui::BeginDisabled(is_imported);
-  const auto panel = OptionsPanel(ui, options, kMostRelief * radius);
+  const auto panel = OptionsPanel(ui, options, kMostRelief * radius, [&](std::string_view field) {
+    return HasEffect(document.depth_options, field);
+  });
   ImGui::EndDisabled();
   if (!panel.changed_field.empty()) SetDepthOptions(state, options, panel.changed_field);
   if (panel.held) state.dragging = true;

@@ -95,8 +95,10 @@ void ColourFilterField(Ui& ui, EditorState& state) {
     chosen = static_cast<int>(words.size());
     words.emplace_back("Own weights");
   }
-  if (Combo(ui, "Colour filter", chosen, words, help.c_str()) &&
-      chosen < static_cast<int>(std::size(authoring::kColourFilters))) {
+  ImGui::BeginDisabled(!HasEffect(options, "red_weight"));
+  const bool is_changed = Combo(ui, "Colour filter", chosen, words, help.c_str());
+  ImGui::EndDisabled();
+  if (is_changed && chosen < static_cast<int>(std::size(authoring::kColourFilters))) {
     authoring::SetColourFilter(options, authoring::kColourFilters[chosen]);
     SetDepthOptions(state, options, "Colour filter");
     EndDrag(state);

@@ -144,6 +144,8 @@ void BrowseForFootage(EditorState& state) {
 namespace {
 
 void OpenClips(EditorState& state, const authoring::Clips& files) {
+  // The board of the document before is closed first; afterwards it would take this one with it.
+  KeepBoardOfScene(state);
   auto mail = std::make_shared<FootageMail>();
   const std::string name = "Read " + files.back().filename().string();
   state.jobs.Start(name, [files, mail](const Progress& progress) {
