@@ -31,6 +31,7 @@ void AddEveryJob(CLI::App& program) {
   AddRectifyJob(program);
   AddReliefJob(program);
   AddReplayJob(program);
+  AddRobotJob(program);
 #ifdef ARTHRO_EDITOR
   AddRunJob(program);
 #endif

@@ -38,6 +38,7 @@ void AddRecordsJob(CLI::App& program);
 void AddRectifyJob(CLI::App& program);
 void AddReliefJob(CLI::App& program);
 void AddReplayJob(CLI::App& program);
+void AddRobotJob(CLI::App& program);
 void AddRunJob(CLI::App& program);
 void AddSolveJob(CLI::App& program);
 void AddTetrahedralizeJob(CLI::App& program);

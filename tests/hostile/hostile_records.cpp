@@ -1,8 +1,7 @@
-// Records under attack and under load: writers that are killed at random moments, many writers at
-// once, and the start page over many attempts. No attempt may be lost, doubled or half there.
-//   hostile_records [--kills 20] [--attempts 400] [--pages 0] [--seed 1]
+// Records under attack and under load: writers that are killed at random moments, and many writers
+// at once. No attempt may be lost, doubled or half there.
+//   hostile_records [--kills 20] [--attempts 400] [--seed 1]
 // PostgreSQL takes part where it is installed; the program says so where it is not.
-#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -23,7 +22,6 @@
 
 #include "app/records/attempts/attempts.h"
 #include "app/records/attempts/outbox.h"
-#include "app/records/attempts/standings.h"
 #include "app/records/exchange/backup.h"
 #include "app/records/people/trainees.h"
 #include "app/records/store/table.h"
@@ -214,82 +212,21 @@ void Load(const std::string& connection, int processes, int attempts, const char
              words, processes, attempts, seconds, attempts / seconds, kept);
 }
 
-// ---- Pages. ----
-
-void Pages(const std::string& connection, int trainees, const char* words) {
-  constexpr int kAttempts = 50, kRounds = 20;
-  TempFolder folder;
-  Records records(connection, Station("pages", 3, folder.path()));
-  Database& database = records.database();
-  std::vector<TraineeRow> people;
-  std::vector<SessionRow> sessions;
-  std::vector<ExerciseRow> exercises;
-  std::vector<AttemptRecord> attempts;
-  for (int e = 0; e < 14; ++e) exercises.push_back(SampleExercise(e));
-  for (int t = 0; t < trainees; ++t) {
-    TraineeRow trainee = NewTrainee(fmt::format("P-{}", t));
-    trainee.id = records.NewId();
-    trainee.created = records.Now();
-    sessions.push_back({records.NewId(), trainee.id, "pages", trainee.created, {}, "", ""});
-    for (int a = 0; a < kAttempts; ++a) {
-      AttemptRecord attempt;
-      attempt.id = records.NewId();
-      attempt.session = sessions.back().id;
-      attempt.trainee = trainee.id;
-      attempt.exercise = exercises[static_cast<std::size_t>(a % 14)].hash;
-      attempt.started = fmt::format("2026-{:02}-{:02}T{:02}:00:00.000Z", 1 + t % 12, 1 + t % 28,
-                                    a % 24 == 0 ? 0 : a % 24) +
-                        std::to_string(a);
-      attempt.mode = AttemptMode::kTest;
-      attempt.outcome = a % 3 == 0 ? AttemptOutcome::kPassed : AttemptOutcome::kFailed;
-      attempt.duration = 40 + a;
-      attempts.push_back(attempt);
-    }
-    people.push_back(std::move(trainee));
-  }
-  database.Write([&] {
-    Insert(database, "trainees", people);
-    Insert(database, "sessions", sessions);
-    Insert(database, "exercises", exercises);
-    Insert(database, "attempts", attempts);
-  });
-  if (database.kind() == DatabaseKind::kPostgresql) database.Do("ANALYZE");
-  const auto measure = [&](const char* what, const std::function<std::size_t(int)>& page) {
-    std::vector<double> times;
-    std::size_t rows = 0;
-    for (int i = 0; i < kRounds; ++i) {
-      const double start = Now();
-      rows = page(i);
-      times.push_back(Now() - start);
-    }
-    std::sort(times.begin(), times.end());
-    fmt::print("{}: {} of {} x {} attempts: {} rows, median {:.1f} ms, largest {:.1f} ms\n", words,
-               what, trainees, kAttempts, rows, 1e3 * times[times.size() / 2], 1e3 * times.back());
-  };
-  measure("start page", [&](int i) {
-    return StandingsOf(records, fmt::format("P-{}", i * 37 % trainees)).size();
-  });
-  measure("cohort page", [&](int) { return CohortStandings(records).size(); });
-  measure("list of trainees", [&](int) { return TraineesOf(records).size(); });
-}
-
 }  // namespace
 }  // namespace arthro::test
 
 int main(int argc, char** argv) {
   using namespace arthro::test;
-  CLI::App program("Kills, loads and reads records of attempts.");
-  int kills = 20, attempts = 400, pages = 0;
+  CLI::App program("Kills and loads records of attempts.");
+  int kills = 20, attempts = 400;
   unsigned seed = 1;
   program.add_option("--kills", kills, "Writers that are killed, per database.");
   program.add_option("--attempts", attempts, "Attempts of all writers, per database.");
-  program.add_option("--pages", pages, "Trainees with 50 attempts each whose pages are read.");
   program.add_option("--seed", seed, "Start of the random sequence.");
   CLI11_PARSE(program, argc, argv);
   const auto run = [&](const std::function<std::string()>& fresh, int writers, const char* words) {
     if (kills > 0) Kill(fresh(), kills, seed, words);
     if (attempts > 0) Load(fresh(), writers, attempts, words);
-    if (pages > 0) Pages(fresh(), pages, words);
   };
   try {
     TempFolder folder;

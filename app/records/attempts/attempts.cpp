@@ -4,11 +4,13 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <system_error>
+#include <tuple>
 #include <unistd.h>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "app/records/store/schema.h"
 #include "app/records/store/table.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -23,10 +25,8 @@ constexpr const char* kRunning = "outcome = 'running'";
 // Behind the source of a limit whose group is still too small.
 constexpr std::string_view kStartValue = " (start value)";
 
-// Marks lie beside the logs, one per attempt.
-fs::path MarkOf(const fs::path& folder, const std::string& attempt) {
-  return folder / "attempts" / (attempt + ".running");
-}
+// Marks of attempts that run, apart from the logs, of which there are many.
+constexpr const char* kMarks = "running";
 
 // The row of an attempt with another trainee; sessions and attempts name trainees by ids, which a
 // station without its server makes itself.
@@ -159,9 +159,10 @@ void EndSession(Records& records, const std::string& session) {
 }
 
 AttemptMark::AttemptMark(const fs::path& folder, const std::string& attempt)
-    : file_(MarkOf(folder, attempt)) {
+    : file_(folder / MarkNameOf(attempt)) {
   std::error_code ignored;
-  fs::create_directories(file_.parent_path(), ignored);
+  for (const fs::path& own : {file_, folder / LogNameOf(attempt)})
+    fs::create_directories(own.parent_path(), ignored);
   lock_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
     ::close(lock_);
@@ -190,6 +191,8 @@ AttemptMark& AttemptMark::operator=(AttemptMark&& other) noexcept {
 }
 
 std::string LogNameOf(const std::string& attempt) { return "attempts/" + attempt + ".attempt"; }
+
+std::string MarkNameOf(const std::string& attempt) { return std::string(kMarks) + "/" + attempt; }
 
 StartedAttempt StartAttempt(Records& records, const SessionRow& session,
                             const ExerciseRow& exercise, const std::string& scene, AttemptMode mode,
@@ -234,6 +237,7 @@ bool PutAttempt(Records& records, const RecordsBundle& bundle, const AttemptReco
   Database& database = records.database();
   bool is_new = false;
   database.Write([&] {
+    RefuseNewer(database);  // another program may have migrated the records meanwhile
     AttemptRecord own = attempt;
     PutParents(records, bundle, own);
     is_new = Insert(database, "attempts", std::vector{own}) > 0 ||
@@ -302,16 +306,23 @@ void SetLogSum(const fs::path& folder, AttemptRecord& record) {
 }
 
 std::vector<std::string> RecoverAttempts(Records& records, const AssessLog& assess) {
+  // The marks of this folder name the attempts, so that no others are read.
+  std::vector<AttemptRecord> cut_short;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(records.folder() / kMarks, ignored)) {
+    const auto found = Select<AttemptRecord>(
+        records.database(), "attempts",
+        fmt::format("WHERE id = :id AND {} AND session IN (SELECT id FROM sessions WHERE station = "
+                    ":station)",
+                    kRunning),
+        {entry.path().filename().string(), records.station()});
+    cut_short.insert(cut_short.end(), found.begin(), found.end());
+  }
+  std::ranges::sort(cut_short, {}, [](const AttemptRecord& record) {
+    return std::tie(record.started, record.id);
+  });
   std::vector<std::string> sentences;
-  for (AttemptRecord& record : Select<AttemptRecord>(
-           records.database(), "attempts",
-           fmt::format("WHERE {} AND session IN (SELECT id FROM sessions WHERE station = :station) "
-                       "ORDER BY started, id",
-                       kRunning),
-           {records.station()})) {
-    // Another user of this station has the marks elsewhere.
-    std::error_code ignored;
-    if (!fs::exists(MarkOf(records.folder(), record.id), ignored)) continue;
+  for (AttemptRecord& record : cut_short) {
     const AttemptMark mark(records.folder(), record.id);
     if (!mark.is_held()) continue;  // its program lives
     const auto result = assess ? assess(record) : std::nullopt;

@@ -23,8 +23,8 @@ SessionRow StartSession(Records& records, const std::string& trainee_code,
                         const std::string& program, const std::string& rig);
 void EndSession(Records& records, const std::string& session);
 
-// Held while an attempt runs: the system gives it back when the process ends, however it ends, and
-// so tells an attempt that runs from one that was cut short.
+// Held while an attempt runs, and made with the folder of its log: the system gives it back when
+// the process ends, however it ends, and so tells an attempt that runs from one that was cut short.
 class AttemptMark {
  public:
   AttemptMark() = default;
@@ -53,8 +53,9 @@ StartedAttempt StartAttempt(Records& records, const SessionRow& session,
                             const ExerciseRow& exercise, const std::string& scene, AttemptMode mode,
                             int metrics_version);
 
-// File of an attempt below the folder of the records.
+// Files of an attempt below the folder of the records: its log, and the mark while it runs.
 std::string LogNameOf(const std::string& attempt);
+std::string MarkNameOf(const std::string& attempt);
 
 // Writes an attempt that is over, with all that it refers to; a trainee is known by the code. Takes
 // the place of its row `running`. Returns false, and changes nothing, for one that is there

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "app/records/attempts/records_file.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/sha256.h"
 
 namespace arthro::app {
 
@@ -16,7 +18,34 @@ namespace fs = std::filesystem;
 
 fs::path OutboxOf(const fs::path& folder) { return folder / "outbox"; }
 
-fs::path KeepInOutbox(const fs::path& folder, const RecordsBundle& bundle) {
+fs::path SpareFolder(const fs::path& folder) {
+  constexpr std::size_t kDigits = 16;
+  try {
+    const fs::path own = RecordsFolder(DefaultRecords());
+    std::error_code ignored;
+    const fs::path place = fs::weakly_canonical(folder, ignored);
+    const fs::path home = fs::weakly_canonical(own, ignored);
+    if (place.empty() || place == home || place.parent_path() == home / "spare") return {};
+    return home / "spare" / Sha256(place.string()).substr(0, kDigits);
+  } catch (const Error&) {  // no home
+    return {};
+  }
+}
+
+fs::path FolderToWrite(const fs::path& folder) {
+  std::error_code ignored;
+  for (const char* part : {"", "attempts", "outbox", "running"})
+    if (const fs::path own = folder / part;
+        fs::exists(own, ignored) && ::access(own.c_str(), W_OK | X_OK) != 0)
+      if (const fs::path spare = SpareFolder(folder);
+          !spare.empty() && (fs::create_directories(spare, ignored) || fs::exists(spare, ignored)))
+        return spare;
+  return folder;
+}
+
+namespace {
+
+fs::path WriteToOutbox(const fs::path& folder, const RecordsBundle& bundle) {
   std::error_code fault;
   fs::create_directories(OutboxOf(folder), fault);
   if (fault)
@@ -25,6 +54,71 @@ fs::path KeepInOutbox(const fs::path& folder, const RecordsBundle& bundle) {
   const fs::path file = OutboxOf(folder) / (bundle.attempts.at(0).id + ".json");
   WriteAtomically(file, RecordsText(bundle), Access::kPrivate);
   return file;
+}
+
+// Files of a folder with this ending, in their order.
+std::vector<fs::path> FilesIn(const fs::path& folder, const char* ending) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().extension() == ending && entry.path().filename().string()[0] != '.')
+      files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+// Brings the logs of attempts that are over from the spare folder to that of the records.
+void BringLogs(const fs::path& spare, const fs::path& folder) {
+  for (const fs::path& log : FilesIn(spare / "attempts", ".attempt")) {
+    const std::string attempt = log.stem().string();
+    std::error_code fault;
+    if (fs::exists(OutboxOf(spare) / (attempt + ".json"), fault)) continue;
+    const AttemptMark mark(spare, attempt);
+    if (!mark.is_held()) continue;  // it runs, and its log grows
+    fs::create_directories(folder / "attempts", fault);
+    fs::copy_file(log, folder / LogNameOf(attempt), fs::copy_options::overwrite_existing, fault);
+    if (!fault) fs::remove(log, fault);
+  }
+}
+
+// `is_spare`: the folder is not that of the records.
+void Sync(Records& records, const fs::path& folder, bool is_spare, Synced& synced) {
+  std::error_code fault;
+  for (const fs::path& file : FilesIn(OutboxOf(folder), ".json")) try {
+      const RecordsBundle bundle = RecordsFromText(ReadWholeFile(file), file);
+      if (bundle.attempts.size() != 1)
+        throw Error(Code::kBadData,
+                    fmt::format("this file of the outbox has {} attempts instead of one; take it "
+                                "in by `arthroscene records import`",
+                                bundle.attempts.size()),
+                    file);
+      const AttemptMark mark =
+          is_spare ? AttemptMark(folder, bundle.attempts.at(0).id) : AttemptMark();
+      if (is_spare && !mark.is_held()) continue;  // it runs
+      const Imported imported = Import(records, bundle);
+      synced.fresh += imported.fresh;
+      synced.known += imported.known;
+      // One that was cut short is recovered by its mark.
+      if (is_spare && bundle.attempts[0].outcome == AttemptOutcome::kRunning)
+        AttemptMark(records.folder(), bundle.attempts[0].id).Leave();
+      fs::remove(file, fault);
+    } catch (const Error& refused) {
+      // Without a database that can be written none of them will go.
+      if (refused.code() != Code::kBadData) throw;
+      synced.refused.emplace_back(refused.what());
+    }
+}
+
+}  // namespace
+
+fs::path KeepInOutbox(const fs::path& folder, const RecordsBundle& bundle) {
+  try {
+    return WriteToOutbox(folder, bundle);
+  } catch (const Error&) {
+    const fs::path spare = SpareFolder(folder);
+    if (spare.empty()) throw;
+    return WriteToOutbox(spare, bundle);
+  }
 }
 
 RecordsBundle StartInOutbox(Random& random, const std::string& trainee_code,
@@ -77,24 +171,10 @@ std::string FinishOrKeep(Records* records, const fs::path& folder, const Records
 
 Synced SyncOutbox(Records& records, const fs::path& folder) {
   Synced synced;
-  std::vector<fs::path> files;
-  std::error_code fault;
-  for (const auto& entry : fs::directory_iterator(OutboxOf(folder), fault))
-    if (entry.path().extension() == ".json" && entry.path().filename().string()[0] != '.')
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  for (const fs::path& file : files) {
-    RecordsBundle bundle;
-    try {
-      bundle = RecordsFromText(ReadWholeFile(file), file);
-    } catch (const Error& damaged) {
-      synced.refused.push_back(damaged.what());
-      continue;
-    }
-    const Imported imported = Import(records, bundle);
-    synced.fresh += imported.fresh;
-    synced.known += imported.known;
-    fs::remove(file, fault);
+  Sync(records, folder, false, synced);
+  if (const fs::path spare = SpareFolder(folder); !spare.empty()) {
+    Sync(records, spare, true, synced);
+    BringLogs(spare, folder);
   }
   return synced;
 }

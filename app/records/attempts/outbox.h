@@ -1,5 +1,6 @@
 // Attempts that could not be written to their database, one file each, until the database is
-// reached again.
+// reached again. Where the folder of the records cannot be written either, logs and outbox go to a
+// spare folder of this user, from which they come back like the others.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +15,14 @@ namespace arthro::app {
 // The folder of the outbox in a folder of records.
 std::filesystem::path OutboxOf(const std::filesystem::path& folder);
 
-// Writes a bundle of one attempt, for its owner alone. Throws Error(kFile).
+// Spare folder for that of some records, below the records of this user. Empty where it would be
+// the same one, or without a home.
+std::filesystem::path SpareFolder(const std::filesystem::path& folder);
+// The folder itself, or its spare where no attempt can be written to it.
+std::filesystem::path FolderToWrite(const std::filesystem::path& folder);
+
+// Writes a bundle of one attempt, for its owner alone, to the folder or its spare. Throws
+// Error(kFile).
 std::filesystem::path KeepInOutbox(const std::filesystem::path& folder,
                                    const RecordsBundle& bundle);
 
@@ -33,7 +41,8 @@ struct Synced {
   int fresh = 0, known = 0;
   std::vector<std::string> refused;  // a sentence per file that stays
 };
-// Moves the attempts of an outbox into the records. A file is removed after its attempt is there.
+// Moves the attempts of the folder's outbox and of its spare into the records. A file is removed
+// after its attempt is there. An attempt that the records refuse stays, and the others go on.
 Synced SyncOutbox(Records& records, const std::filesystem::path& folder);
 
 }  // namespace arthro::app

@@ -1,8 +1,6 @@
 #include "app/records/attempts/records_file.h"
 
-#include <algorithm>
 #include <map>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -37,13 +35,7 @@ RecordsBundle ReadWhere(Records& records, const std::string& attempts, const Row
   bundle.attempts =
       Select<AttemptRecord>(database, "attempts", attempts + " ORDER BY started, id", values);
   std::map<std::string, AttemptRecord*> by_id;
-  std::set<std::string> trainees, sessions, exercises, cohorts;
-  for (AttemptRecord& attempt : bundle.attempts) {
-    by_id[attempt.id] = &attempt;
-    trainees.insert(attempt.trainee);
-    sessions.insert(attempt.session);
-    exercises.insert(attempt.exercise);
-  }
+  for (AttemptRecord& attempt : bundle.attempts) by_id[attempt.id] = &attempt;
   const std::string where =
       attempts.empty() ? ""
                        : fmt::format("WHERE attempt IN (SELECT id FROM attempts {})", attempts);
@@ -51,23 +43,33 @@ RecordsBundle ReadWhere(Records& records, const std::string& attempts, const Row
   Attach(database, "metrics", "name, part", by_id, &AttemptRecord::metrics, where, values);
   Attach(database, "criteria", "seq", by_id, &AttemptRecord::criteria, where, values);
   Attach(database, "events", "seq", by_id, &AttemptRecord::events, where, values);
-  const auto keep = [](auto rows, const std::set<std::string>& keys, auto key) {
-    std::erase_if(rows, [&](const auto& row) { return !keys.contains(row.*key); });
-    return rows;
+  // Rows that the attempts name by `key`, and no others.
+  const auto named = [&](const char* key) {
+    return fmt::format("(SELECT {} FROM attempts {})", key, attempts);
   };
-  bundle.trainees =
-      keep(Select<TraineeRow>(database, "trainees", "ORDER BY code"), trainees, &TraineeRow::id);
-  for (const TraineeRow& trainee : bundle.trainees) cohorts.insert(trainee.cohort);
-  bundle.cohorts =
-      keep(Select<CohortRow>(database, "cohorts", "ORDER BY name"), cohorts, &CohortRow::id);
-  bundle.exercises = keep(Select<ExerciseRow>(database, "exercises", "ORDER BY id, version, hash"),
-                          exercises, &ExerciseRow::hash);
-  bundle.sessions = keep(Select<SessionRow>(database, "sessions", "ORDER BY started, id"), sessions,
-                         &SessionRow::id);
+  bundle.trainees = Select<TraineeRow>(
+      database, "trainees", fmt::format("WHERE id IN {} ORDER BY code", named("trainee")), values);
+  bundle.cohorts = Select<CohortRow>(
+      database, "cohorts",
+      fmt::format("WHERE id IN (SELECT cohort FROM trainees WHERE id IN {}) ORDER BY name",
+                  named("trainee")),
+      values);
+  bundle.exercises = Select<ExerciseRow>(
+      database, "exercises",
+      fmt::format("WHERE hash IN {} ORDER BY id, version, hash", named("exercise")), values);
+  bundle.sessions = Select<SessionRow>(
+      database, "sessions", fmt::format("WHERE id IN {} ORDER BY started, id", named("session")),
+      values);
   bundle.forms = Select<FormRow>(database, "forms", where + " ORDER BY made, id", values);
-  for (FormRow& form : bundle.forms)
-    form.items =
-        Select<FormItemRow>(database, "form_items", "WHERE form = :form ORDER BY item", {form.id});
+  std::map<std::string, FormRow*> forms;
+  for (FormRow& form : bundle.forms) forms[form.id] = &form;
+  const std::string of_forms =
+      where.empty() ? "" : fmt::format("WHERE form IN (SELECT id FROM forms {})", where);
+  for (const Row& row : database.Ask(
+           fmt::format("SELECT item, score, form FROM form_items {} ORDER BY form, item", of_forms),
+           values))
+    if (const auto form = forms.find(TextOf(row[2])); form != forms.end())
+      form->second->items.emplace_back().Visit(internal::RowReader{row});
   return bundle;
 }
 

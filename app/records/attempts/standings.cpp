@@ -74,9 +74,22 @@ void SetTestOutcomes(Records& records, const std::string& where, const Row& valu
 }  // namespace
 
 std::vector<Standing> StandingsOf(Records& records, const std::string& trainee_code) {
-  auto standings = Ask(records, "AND trainee = (SELECT id FROM trainees WHERE code = :code)", "",
-                       {trainee_code});
-  SetTestOutcomes(records, "AND trainees.code = :code", {trainee_code}, standings);
+  return StandingsOf(records, std::span(&trainee_code, 1));
+}
+
+std::vector<Standing> StandingsOf(Records& records, std::span<const std::string> trainee_codes) {
+  if (trainee_codes.empty()) return {};
+  std::string names;
+  Row values;
+  for (const std::string& code : trainee_codes) {
+    names += fmt::format("{}:c{}", values.empty() ? "" : ", ", values.size());
+    values.emplace_back(code);
+  }
+  const std::string where =
+      fmt::format("AND {{}} IN (SELECT id FROM trainees WHERE code IN ({}))", names);
+  const auto of = [&](const char* column) { return fmt::format(fmt::runtime(where), column); };
+  auto standings = Ask(records, of("trainee"), "", values);
+  SetTestOutcomes(records, of("attempts.trainee"), values, standings);
   return standings;
 }
 

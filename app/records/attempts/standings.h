@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct Standing {
 
 // One row per exercise that the trainee has tried. Robots do not count.
 std::vector<Standing> StandingsOf(Records& records, const std::string& trainee_code);
+// The same for some trainees, in two statements; only their part of the index is read.
+std::vector<Standing> StandingsOf(Records& records, std::span<const std::string> trainee_codes);
 // One row per trainee and exercise; an empty name means every cohort.
 std::vector<Standing> CohortStandings(Records& records, const std::string& cohort_name = "");
 

@@ -95,6 +95,22 @@ FormRow AddRating(Records& records, const RatingForm& form, FormRow filled) {
   return filled;
 }
 
+std::vector<UnratedAttempt> UnratedAttempts(Records& records, const std::string& exercise_hash,
+                                            const std::string& cohort, const std::string& rater) {
+  std::vector<UnratedAttempt> attempts;
+  for (const Row& row : records.database().Ask(
+           R"(SELECT attempts.id, attempts.log FROM attempts
+    JOIN trainees ON trainees.id = attempts.trainee
+    LEFT JOIN cohorts ON cohorts.id = trainees.cohort
+    WHERE attempts.exercise = :exercise AND attempts.mode <> 'robot'
+    AND attempts.outcome IN ('passed', 'failed', 'stopped')
+    AND (:any = 1 OR cohorts.name = :cohort)
+    AND attempts.id NOT IN (SELECT attempt FROM forms WHERE rater = :rater) ORDER BY attempts.id)",
+           {exercise_hash, static_cast<std::int64_t>(cohort.empty()), cohort, rater}))
+    attempts.push_back({TextOf(row[0]), TextOf(row[1])});
+  return attempts;
+}
+
 bool IsPassed(const RatingForm& form, const FormRow& filled) {
   return form.pass_each > 0 &&
          std::all_of(form.items.begin(), form.items.end(), [&](const FormItem& item) {

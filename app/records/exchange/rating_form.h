@@ -64,6 +64,13 @@ std::vector<RatingForm> ReadForms(const std::filesystem::path& folder);
 void CheckRatings(const RatingForm& form, const FormRow& filled);
 // Keeps a filled form with its attempt; gives it an id and a time. Throws as CheckRatings.
 FormRow AddRating(Records& records, const RatingForm& form, FormRow filled);
+// Attempts at an exercise that are over and that this rater has not rated, of one cohort or of all
+// (an empty name), without robots.
+struct UnratedAttempt {
+  std::string id, log;
+};
+std::vector<UnratedAttempt> UnratedAttempts(Records& records, const std::string& exercise_hash,
+                                            const std::string& cohort, const std::string& rater);
 // Every item has its score of a pass. False for a form without a pass, and while an item is
 // missing.
 bool IsPassed(const RatingForm& form, const FormRow& filled);

@@ -21,7 +21,7 @@ ExerciseRow ExerciseRowOf(const Exercise& exercise) {
 
 KeptAttempt::KeptAttempt(Records* records, fs::path folder,
                          const std::optional<SessionRow>& session, const AttemptPlan& plan)
-    : folder_(std::move(folder)) {
+    : folder_(FolderToWrite(folder)) {
   try {
     if (records != nullptr && session) StartInRecords(*records, *session, plan);
   } catch (const Error& fault) {
@@ -82,12 +82,24 @@ void KeptAttempt::StartLog(const AttemptPlan& plan) {
                                .surfaces = plan.surfaces};
   // Twice as often as a program that is killed may lose.
   constexpr double kWriteEvery = 0.1;  // s
-  try {
+  const auto begin = [&](const fs::path& folder) {
     log_ = std::make_unique<simulation::AttemptLog>(
-        folder_ / record().log, std::span<const simulation::LogSource>(),
+        folder / record().log, std::span<const simulation::LogSource>(),
         simulation::AttemptHeadText(head), simulation::AttemptLogOptions{kWriteEvery});
+    log_folder_ = folder;
+  };
+  try {
+    begin(folder_);
   } catch (const Error& fault) {
-    notices_.push_back(fault.what());
+    try {
+      const fs::path spare = SpareFolder(folder_);
+      if (spare.empty()) throw;
+      std::error_code ignored;
+      fs::create_directories((spare / record().log).parent_path(), ignored);
+      begin(spare);
+    } catch (const Error&) {
+      notices_.emplace_back(fault.what());
+    }
   }
 }
 
@@ -105,7 +117,7 @@ void KeptAttempt::CloseLog() {
       notices_.push_back(fault.what());
     }
   log_.reset();
-  SetLogSum(folder_, bundle_.attempts[0]);
+  SetLogSum(log_folder_, bundle_.attempts[0]);
 }
 
 std::string KeptAttempt::Finish(Records* records, const simulation::AttemptResult& result) {
@@ -124,13 +136,11 @@ std::string KeptAttempt::Finish(Records* records, const simulation::AttemptResul
 std::vector<simulation::GroupValues> GroupValuesOf(Records& records,
                                                    const std::string& exercise_hash) {
   std::vector<simulation::GroupValues> values;
-  for (const ReferenceGroup& group : ReferenceGroupsOf(records)) {
-    if (group.exercise != exercise_hash || group.metrics_version != simulation::kMetricsVersion)
-      continue;
+  for (const ReferenceGroup& group :
+       ReferenceGroupsAt(records, exercise_hash, simulation::kMetricsVersion))
     for (const ReferenceValueRow& row : group.values)
       if (row.mean)
         values.push_back({group.name, row.metric, row.part, row.n, *row.mean, row.sd.value_or(0)});
-  }
   return values;
 }
 

@@ -60,7 +60,7 @@ class KeptAttempt {
   void StartLog(const AttemptPlan& plan);
   void CloseLog();
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, log_folder_;
   RecordsBundle bundle_;  // with one attempt
   AttemptMark mark_;
   std::unique_ptr<simulation::AttemptLog> log_;  // null: it could not be begun, or it is closed

@@ -123,6 +123,26 @@ std::optional<ReferenceGroup> Compute(Records& records, const std::string& name,
   return group;
 }
 
+// Groups with their values in two statements. `where`: a condition on the groups.
+std::vector<ReferenceGroup> GroupsWhere(Records& records, const std::string& where,
+                                        const Row& values) {
+  auto groups = Select<ReferenceGroup>(records.database(), "reference_groups",
+                                       where + " ORDER BY name, made", values);
+  std::map<std::string, ReferenceGroup*> by_id;
+  for (ReferenceGroup& group : groups) by_id[group.id] = &group;
+  for (Row& row : records.database().Ask(
+           fmt::format("SELECT grp, {} FROM reference_values WHERE grp IN (SELECT id FROM "
+                       "reference_groups {}) ORDER BY grp, metric, part",
+                       fmt::join(ColumnsOf<ReferenceValueRow>(), ", "), where),
+           values)) {
+    const auto group = by_id.find(TextOf(row[0]));
+    if (group == by_id.end()) continue;
+    row.erase(row.begin());
+    group->second->values.emplace_back().Visit(internal::RowReader{row});
+  }
+  return groups;
+}
+
 }  // namespace
 
 ReferenceGroup MakeReferenceGroup(Records& records, const std::string& name,
@@ -141,12 +161,13 @@ ReferenceGroup MakeReferenceGroup(Records& records, const std::string& name,
 }
 
 std::vector<ReferenceGroup> ReferenceGroupsOf(Records& records) {
-  auto groups =
-      Select<ReferenceGroup>(records.database(), "reference_groups", "ORDER BY name, made");
-  for (ReferenceGroup& group : groups)
-    group.values = Select<ReferenceValueRow>(records.database(), "reference_values",
-                                             "WHERE grp = :id ORDER BY metric, part", {group.id});
-  return groups;
+  return GroupsWhere(records, "", {});
+}
+
+std::vector<ReferenceGroup> ReferenceGroupsAt(Records& records, const std::string& exercise_hash,
+                                              int metrics_version) {
+  return GroupsWhere(records, "WHERE exercise = :exercise AND metrics_version = :version",
+                     {exercise_hash, static_cast<std::int64_t>(metrics_version)});
 }
 
 MetricValues MemberValues(Records& records, const ReferenceGroup& group) {

@@ -61,6 +61,9 @@ struct ReferenceRule {
 ReferenceGroup MakeReferenceGroup(Records& records, const std::string& name,
                                   const std::string& exercise_hash, const ReferenceRule& rule);
 std::vector<ReferenceGroup> ReferenceGroupsOf(Records& records);
+// Those of one exercise whose metrics are of this version.
+std::vector<ReferenceGroup> ReferenceGroupsAt(Records& records, const std::string& exercise_hash,
+                                              int metrics_version);
 // Values of the attempts that count for the group now, by metric and part.
 using MetricValues = std::map<std::pair<std::string, std::string>, std::vector<double>>;
 MetricValues MemberValues(Records& records, const ReferenceGroup& group);

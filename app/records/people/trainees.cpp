@@ -54,7 +54,9 @@ TraineeRow AddTrainee(Records& records, TraineeRow trainee) {
     trainee.id = records.NewId();
     trainee.created = records.Now();
     trainee.cohort = CohortId(records, trainee.cohort);
-    Insert(records.database(), "trainees", std::vector{trainee});
+    // Another station may have been faster.
+    if (Insert(records.database(), "trainees", std::vector{trainee}) == 0)
+      RefuseTaken(records, trainee.code);
   });
   return trainee;
 }

@@ -12,6 +12,7 @@
 #include <soci/postgresql/soci-postgresql.h>
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -42,9 +43,13 @@ void MakePrivateFile(const fs::path& file) {
     ::close(made);
     return;
   }
+  const int why = errno;
+  if (fs::is_directory(file, fault))
+    throw Error(Code::kFile,
+                "this is a folder; name a file for the records, or move the folder away", file);
   // A file that can only be read is opened all the same, so that results can be looked at.
   if (!fs::is_regular_file(file, fault))
-    throw Error(Code::kFile, "the records could not be opened: " + WhyNotWritten(errno), file);
+    throw Error(Code::kFile, "the records could not be opened: " + WhyNotWritten(why), file);
 }
 
 // Quotes a value of SOCI's connection strings.
@@ -166,7 +171,8 @@ Error SqliteFault(int code, const std::string& text, const std::string& file) {
               "on it",
               file};
     default:
-      return {Code::kFile, fmt::format("the records refused the work: {}", text), file};
+      return {(code & 0xff) == SQLITE_CONSTRAINT ? Code::kBadData : Code::kFile,
+              fmt::format("the records refused the work: {}", text), file};
   }
 }
 
@@ -204,7 +210,9 @@ Error ServerFault(const soci::soci_error& fault, const std::string& words) {
                           "its administrator for the role",
                           words, text)};
     default:
-      return {Code::kFile, fmt::format("the records on {} refused the work: {}", words, text)};
+      return {fault.get_error_category() == soci::soci_error::constraint_violation ? Code::kBadData
+                                                                                   : Code::kFile,
+              fmt::format("the records on {} refused the work: {}", words, text)};
   }
 }
 
@@ -236,6 +244,7 @@ Database::Database(const std::string& connection, double timeout)
       return;
     }
     MakePrivateFile(connection);
+    opened_ = FileIdOf(connection);
     link_->session.open(soci::sqlite3,
                         fmt::format("db={} timeout={}", Quoted(connection),
                                     std::max(1, static_cast<int>(std::ceil(timeout)))));
@@ -250,8 +259,19 @@ Database::Database(const std::string& connection, double timeout)
 
 Database::~Database() = default;
 
+Database::FileId Database::FileIdOf(const std::string& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return {};
+  return {status.st_dev, status.st_ino};
+}
+
 // Called while an error of SOCI is handled.
 void Database::Refuse() const {
+  if (kind_ == DatabaseKind::kSqlite && opened_ != FileIdOf(words_))
+    throw Error(Code::kFile,
+                "the file of the records was moved or replaced while it was open; put it back, or "
+                "restore a backup",
+                words_);
   try {
     throw;
   } catch (const soci::sqlite3_soci_error& fault) {
@@ -264,6 +284,7 @@ void Database::Refuse() const {
 
 long Database::Do(const std::string& sql, const std::vector<Row>& rows) {
   if (rows.empty()) return 0;
+  ++work_.statements;
   try {
     std::deque<Bound> places = PlacesFor(rows);
     soci::statement statement(link_->session);
@@ -284,6 +305,7 @@ long Database::Do(const std::string& sql, const std::vector<Row>& rows) {
 }
 
 std::vector<Row> Database::Ask(const std::string& sql, const Row& values) {
+  ++work_.statements;
   try {
     std::deque<Bound> places = PlacesFor({values});
     for (std::size_t i = 0; i < places.size(); ++i) places[i].Set(values[i]);
@@ -299,6 +321,7 @@ std::vector<Row> Database::Ask(const std::string& sql, const Row& values) {
       Row& row = rows.emplace_back();
       for (std::size_t i = 0; i < fetched.size(); ++i) row.push_back(CellAt(fetched, i));
     }
+    work_.rows += static_cast<long>(rows.size());
     return rows;
   } catch (const soci::soci_error&) {
     Refuse();

@@ -5,6 +5,7 @@
 // two connections reset at once [SQLite, "The WAL Reset Bug", sqlite.org/wal.html].
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -15,6 +16,11 @@
 namespace arthro::app {
 
 enum class DatabaseKind { kSqlite, kPostgresql };
+
+// Work of a connection since it was opened, so that tests can see what a page costs.
+struct DatabaseWork {
+  long statements = 0, rows = 0;  // rows: read
+};
 
 class Database {
  public:
@@ -29,6 +35,7 @@ class Database {
   DatabaseKind kind() const { return kind_; }
   // The connection for messages, without a password.
   const std::string& words() const { return words_; }
+  const DatabaseWork& work() const { return work_; }
 
   // Runs a statement once per row of values, which stand for :names in their order. A name stands
   // once. NaN is stored as nothing, since the databases read it differently. Returns the number of
@@ -45,8 +52,17 @@ class Database {
   [[noreturn]] void Refuse() const;
   void BeginOnServer();
 
+  // File of an SQLite database as it was opened; another one in its place is no longer the same.
+  struct FileId {
+    std::uint64_t device = 0, number = 0;
+    friend bool operator==(const FileId&, const FileId&) = default;
+  };
+  static FileId FileIdOf(const std::string& file);  // zeros where it is not there
+
   DatabaseKind kind_;
   std::string words_;
+  FileId opened_;
+  DatabaseWork work_;
   std::unique_ptr<Link> link_;
 };
 

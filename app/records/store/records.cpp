@@ -1,5 +1,6 @@
 #include "app/records/store/records.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <sys/random.h>
@@ -21,12 +22,34 @@ RecordsOptions Completed(RecordsOptions options) {
   return options;
 }
 
+// Returns the connection. Refuses an empty file beside logs of attempts: something has emptied it,
+// and new tables in it would hide that. Logs of the outbox wait for their first records.
+const std::string& NotEmptied(const std::string& connection, const fs::path& folder) {
+  std::error_code ignored;
+  if (IsServer(connection) || !fs::is_regular_file(connection, ignored) ||
+      fs::file_size(connection, ignored) > 0)
+    return connection;
+  const auto is_log = [&](const fs::directory_entry& entry) {
+    return entry.path().extension() == ".attempt" &&
+           !fs::exists(folder / "outbox" / (entry.path().stem().string() + ".json"), ignored);
+  };
+  const auto logs = std::ranges::count_if(fs::directory_iterator(folder / "attempts", ignored),
+                                          fs::directory_iterator(), is_log);
+  if (logs > 0)
+    throw Error(Code::kBadData,
+                fmt::format("the records are empty, though {} attempts lie beside them; restore a "
+                            "backup, or remove the empty file to begin anew",
+                            logs),
+                connection);
+  return connection;
+}
+
 }  // namespace
 
 Records::Records(const std::string& connection, RecordsOptions options)
     : options_(Completed(std::move(options))),
       folder_(options_.folder.empty() ? RecordsFolder(connection) : options_.folder),
-      database_(connection, options_.timeout),
+      database_(NotEmptied(connection, folder_), options_.timeout),
       random_(options_.seed ? Random(*options_.seed) : RandomFromSystem()) {
   copy_ = Migrate(database_, EveryMigration());
 }

@@ -101,17 +101,26 @@ int SchemaOf(Database& database) {
   return rows.empty() ? 0 : static_cast<int>(NumberOf(rows[0][0]));
 }
 
+namespace {
+
+void RefuseAbove(int newest, int schema, const Database& database) {
+  if (schema > newest)
+    throw Error(Code::kBadData,
+                fmt::format("the records at {} have schema {}, and this program knows schemas up "
+                            "to {}; update the program",
+                            database.words(), schema, newest));
+}
+
+}  // namespace
+
+void RefuseNewer(Database& database) {
+  RefuseAbove(EveryMigration().back().schema, SchemaOf(database), database);
+}
+
 fs::path Migrate(Database& database, std::span<const Migration> migrations) {
   const int newest = migrations.back().schema;
-  const auto refuse_newer = [&](int schema) {
-    if (schema > newest)
-      throw Error(Code::kBadData,
-                  fmt::format("the records at {} have schema {}, and this program knows schemas up "
-                              "to {}; update the program",
-                              database.words(), schema, newest));
-  };
   const int before = SchemaOf(database);
-  refuse_newer(before);
+  RefuseAbove(newest, before, database);
   if (before == newest) return {};
   fs::path copy;
   if (before > 0 && database.kind() == DatabaseKind::kSqlite) copy = Copy(database, before);
@@ -120,7 +129,7 @@ fs::path Migrate(Database& database, std::span<const Migration> migrations) {
     if (database.kind() == DatabaseKind::kPostgresql)
       database.Ask("SELECT CAST(pg_advisory_xact_lock(4150) AS TEXT)");
     const int schema = SchemaOf(database);
-    refuse_newer(schema);
+    RefuseAbove(newest, schema, database);
     for (const Migration& migration : migrations) {
       if (migration.schema <= schema) continue;
       for (const std::string& statement : migration.statements) database.Do(statement);

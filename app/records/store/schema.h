@@ -27,5 +27,7 @@ std::filesystem::path Migrate(Database& database, std::span<const Migration> mig
 
 // 0 for a database without tables.
 int SchemaOf(Database& database);
+// Throws Error(kBadData) for records of a newer schema than this program knows.
+void RefuseNewer(Database& database);
 
 }  // namespace arthro::app

@@ -9,6 +9,7 @@
 #include "app/steps/lessons/trainee.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/practice/start_practice.h"
+#include "simulation/core/error.h"
 #include "simulation/practice/hands/offered_instruments.h"
 #include "simulation/training/metrics/exercise_metrics.h"
 #include "simulation/training/observe/exercise_targets.h"
@@ -105,6 +106,11 @@ bool MayBeginExercise(const EditorState& state) {
 }
 
 void BeginExercise(EditorState& state) {
+  if (HasUnkeptAttempt(state)) KeepAttempt(state);
+  if (HasUnkeptAttempt(state))
+    throw Error(Code::kFile,
+                "the last attempt is not kept yet, and a new one would take its place; make room "
+                "on the disk, then press Keep attempt");
   const Exercise exercise = *ChosenExercise(state);
   StartPractice(state, [exercise](EditorState& now) {
     LessonsStep& step = *now.steps.lessons;
@@ -160,6 +166,7 @@ void OpenLessons(EditorState& state, const std::optional<std::string>& place) {
 void EndLessons(EditorState& state) {
   LessonsStep& step = *state.steps.lessons;
   if (step.running && state.practice) EndAttempt(state);
+  if (HasUnkeptAttempt(state)) KeepAttempt(state);
   LeaveTrainee(*step.records);
 }
 

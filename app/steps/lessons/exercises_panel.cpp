@@ -45,14 +45,13 @@ void List(Ui& ui, EditorState& state) {
   const auto& exercises = state.document().scene.exercises;
   if (exercises.empty())
     QuietText(ui, "This scene has no exercise. Add one, and click its targets in the picture.");
-  ImGui::BeginChild("exercises", {0, ui.Px(exercises.empty() ? 1 : 150)});
+  // Without a scroll bar of its own, beside that of the panel.
   for (std::size_t i = 0; i < exercises.size(); ++i)
     if (ListEntry(ui, fmt::format("{}##{}", exercises[i].title, i),
                   static_cast<int>(i) == step.chosen)) {
       step.chosen = static_cast<int>(i);
       step.target = step.step = step.criterion = -1;
     }
-  ImGui::EndChild();
   CommandButton(ui, state, "new-exercise", {-FLT_MIN, 0});
   const float half = (ImGui::GetContentRegionAvail().x - ui.Px(6)) / 2;
   CommandButton(ui, state, "copy-exercise", {half, 0});

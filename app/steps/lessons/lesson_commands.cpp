@@ -18,6 +18,7 @@ bool RunsAttempt(const State& state) { return state.steps.lessons->running.has_v
 bool HasResult(const State& state) {
   return !state.practice && state.steps.lessons->finished.has_value();
 }
+bool ShowsWhose(const State& state) { return HasResult(state) && !IsBlinded(state); }
 bool HasFrames(const State& state) {
   return HasResult(state) && !state.steps.lessons->finished->frames.empty();
 }
@@ -81,8 +82,16 @@ constexpr Command kCommands[] = {
      "Lessons",
      {},
      {},
-     MayRate,
+     [](const State& state) { return MayRate(state) && !IsBlinded(state); },
      ToggleRating},
+    {"rate-blinded",
+     "Rate blinded…",
+     "Rate an attempt at the chosen exercise without its trainee, date, result and ratings.",
+     "Lessons",
+     {},
+     {},
+     MayRateBlinded,
+     RateBlinded},
     {"keep-rating",
      "Keep this rating",
      "Write the rating with the attempt into the records.",
@@ -169,7 +178,7 @@ constexpr Command kCommands[] = {
      "Lessons",
      {},
      {},
-     HasResult,
+     ShowsWhose,
      [](State& state) { state.steps.lessons->page = LessonPage::kSummary; }},
     {"attempt-report",
      "Save report…",
@@ -177,7 +186,7 @@ constexpr Command kCommands[] = {
      "Lessons",
      {},
      {},
-     HasResult,
+     ShowsWhose,
      SaveReport},
     {"debrief-play",
      "Play",

@@ -103,6 +103,13 @@ void OpenChosenGate(EditorState& state);
 void SaveAttemptTable(EditorState& state);
 // True while the look back at an attempt of the records is shown.
 bool MayRate(const EditorState& state);
+// True while the attempt that is shown is rated blinded: nothing says whose it is and how it ended.
+bool IsBlinded(const EditorState& state);
+// True where an exercise is chosen on the instructor's page.
+bool MayRateBlinded(const EditorState& state);
+// Shows the look back at a random attempt at the chosen exercise that the rater has not rated, with
+// the form. Throws Error where there is none.
+void RateBlinded(EditorState& state);
 // Shows the rating form, or takes it away.
 void ToggleRating(EditorState& state);
 bool ShowsRating(const EditorState& state);

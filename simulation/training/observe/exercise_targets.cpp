@@ -52,8 +52,12 @@ std::optional<TargetPlace> PlaceOf(const LoadedScene& loaded, const DepthField& 
 }  // namespace
 
 std::vector<TargetPlace> PlacesOfTargets(const LoadedScene& loaded, const Exercise& exercise) {
+  return PlacesOfTargets(loaded, exercise, ReliefOf(loaded));
+}
+
+std::vector<TargetPlace> PlacesOfTargets(const LoadedScene& loaded, const Exercise& exercise,
+                                         const DepthField& relief) {
   std::vector<TargetPlace> places;
-  const DepthField relief = ReliefOf(loaded);
   for (const ExerciseTarget& target : exercise.targets) {
     const auto place = PlaceOf(loaded, relief, target);
     if (!place)

@@ -75,7 +75,10 @@ class ExerciseCheck {
  public:
   ExerciseCheck(const LoadedScene& loaded, const Exercise& exercise, const DepthField& relief,
                 const ScopeEye& eye)
-      : loaded_(loaded), places_(PlacesOfTargets(loaded, exercise)), relief_(relief), eye_(eye) {
+      : loaded_(loaded),
+        places_(PlacesOfTargets(loaded, exercise, relief)),
+        relief_(relief),
+        eye_(eye) {
     // A body that lies still is a ball.
     for (TargetPlace& place : places_)
       if (place.is_loose) place = TargetInBall(place.point, place.radius);

@@ -1,6 +1,8 @@
 // The instructor's page without its pictures: the cohort, learning curves, CUSUM as advice, an
 // opened gate with its audit, and a rating.
 #include <algorithm>
+#include <array>
+#include <set>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,13 +14,15 @@
 #include "app/records/keeping/kept_attempt.h"
 #include "app/records/people/audit.h"
 #include "app/records/people/reference_groups.h"
+#include "app/state/command.h"
 #include "app/steps/lessons/instructor/cohort_board.h"
 #include "app/steps/lessons/instructor/rating_board.h"
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/trainee.h"
+#include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/training/metrics/metrics.h"
-#include "tests/support/sample_attempts.h"
+#include "tests/support/many_attempts.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::app {
@@ -73,6 +77,7 @@ TEST(CohortBoard, CountsTriesAndPassesOfEveryTraineeAndShowsGates) {
   const CohortBoard& board = lab.board();
   EXPECT_EQ(board.fault, "");
   ASSERT_EQ(board.rows.size(), 3U);
+  ReadShownRows(lab.state, 0, 3);
   EXPECT_EQ(board.rows[0].code, "E-1");
   const CohortCell& cell = board.rows[1].cells[0];
   EXPECT_EQ(cell.tries, 5);
@@ -81,8 +86,63 @@ TEST(CohortBoard, CountsTriesAndPassesOfEveryTraineeAndShowsGates) {
   EXPECT_TRUE(cell.is_gate_passed) << "two passes in a row are asked for";
   EXPECT_FALSE(board.rows[0].cells[0].is_gate_passed) << "one is not enough";
   EXPECT_EQ(board.rows[2].cells[0].tries, 0);
-  ChooseCohort(lab.state, 0);
+  ChooseCohort(lab.state, "2026");
   EXPECT_EQ(lab.board().rows.size(), 2U);
+  FindTrainees(lab.state, "t-2");
+  EXPECT_EQ(lab.board().rows.size(), 1U);
+}
+
+TEST(CohortBoard, ReadsTheSameForManyTraineesAsForFew) {
+  const auto work_of = [](int trainees) {
+    Lab lab;
+    {
+      Records records(lab.place, test::RepeatedOptions(9));
+      test::FillRecords(records, {trainees, 5}, {lab.RowOf(0), lab.RowOf(1)});
+    }
+    OpenRecords(*lab.state.steps.lessons->records);
+    const DatabaseWork& work = lab.state.steps.lessons->records->open->database().work();
+    const DatabaseWork opened = work;
+    lab.board();
+    const DatabaseWork codes = work;
+    ReadShownRows(lab.state, 0, 20);
+    const DatabaseWork cells = work;
+    ReadShownRows(lab.state, 5, 15);
+    EXPECT_EQ(work.statements, cells.statements) << "rows that were read are read again";
+    return std::array{opened.statements, codes.statements - opened.statements,
+                      cells.statements - codes.statements, cells.rows - codes.rows};
+  };
+  // 36 rows are read for 20 that are shown.
+  EXPECT_EQ(work_of(50), work_of(150));
+}
+
+TEST(CohortBoard, DrawsTheBandOfTheGroupThatWasChosenAlsoAfterTheNextStart) {
+  Lab lab;
+  {
+    Records records(lab.place);
+    ReferenceRule rule;
+    rule.trainees = {"T-1"};
+    rule.rig = "mouse";
+    MakeReferenceGroup(records, "residents", lab.RowOf(0).hash, rule);
+  }
+  const auto band_words = [](EditorState& state) {
+    FreshCohortBoard(state);
+    ChooseCell(state, 1, 0);
+    return FreshCohortBoard(state).curve.band_words;
+  };
+  EXPECT_EQ(band_words(lab.state), "experts, n = 1");
+  ChooseGroup(lab.state, "residents");
+  ChooseCohort(lab.state, "2026");
+  const auto next = [&] {
+    EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
+    OpenLessons(state, lab.place);
+    const std::string words = band_words(state);
+    EXPECT_EQ(FreshCohortBoard(state).choice.cohort, "2026");
+    ChooseGroup(state, "");
+    EXPECT_FALSE(FreshCohortBoard(state).curve.band);
+    return words;
+  };
+  EXPECT_EQ(next(), "residents, n = 1");
+  EXPECT_EQ(next(), "") << "no band was chosen";
 }
 
 TEST(CohortBoard, DrawsTheMedianOfThreeBesideTheBandOfTheGroup) {
@@ -143,16 +203,73 @@ TEST(RatingBoard, KeepsScoresWithTheAttemptAndAsksForARater) {
   SetScore(board.filled, form.items.at(0).id, 4);
   EXPECT_FALSE(MayKeepRating(lab.state)) << "nobody rates";
   board.filled.rater = "I-2";
-  board.filled.blinded = true;
   ASSERT_TRUE(MayKeepRating(lab.state));
   KeepRating(lab.state);
   Records records(lab.place);
   const RecordsBundle bundle = ReadBundleOf(records, lab.first);
   ASSERT_EQ(bundle.forms.size(), 1U);
   EXPECT_EQ(bundle.forms[0].rater, "I-2");
-  EXPECT_TRUE(bundle.forms[0].blinded);
+  EXPECT_FALSE(bundle.forms[0].blinded) << "the page has said whose attempt it is";
   ASSERT_EQ(bundle.forms[0].items.size(), 1U);
   EXPECT_EQ(bundle.forms[0].items[0].score, 4);
+}
+
+// Words of the widgets that would say whose an attempt is and how it ended.
+bool SaysWhose(const EditorState& state) {
+  return CommandOf(state, "attempt-summary").enabled(state) ||
+         CommandOf(state, "attempt-report").enabled(state) || !IsBlinded(state);
+}
+
+TEST(RatingBoard, HidesWhoseAnAttemptIsUntilABlindedRatingIsKept) {
+  Lab lab;
+  EditorState& state = lab.state;
+  std::string expert;
+  {
+    Records records(lab.place);
+    expert = AttemptsOf(records, "E-1").at(0).id;
+    for (const std::string& id : {lab.first, expert})
+      WriteAtomically(lab.folder / LogNameOf(id), "log");
+  }
+  app::Run(state, "instructor-page");
+  lab.board();
+  EXPECT_FALSE(MayRateBlinded(state)) << "no exercise is chosen";
+  ChooseCell(state, lab.RowIndex("T-1"), 0);
+  lab.board().who = "I-2";
+  std::set<std::string> rated;
+  for (int i = 0; i < 2; ++i) {
+    app::Run(state, "rate-blinded");
+    ASSERT_TRUE(IsBlinded(state));
+    EXPECT_FALSE(SaysWhose(state));
+    EXPECT_FALSE(CommandOf(state, "rate-attempt").enabled(state));
+    RatingBoard& board = *state.steps.lessons->rating;
+    EXPECT_EQ(board.filled.rater, "I-2");
+    EXPECT_EQ(state.message.find("T-1"), std::string::npos);
+    EXPECT_EQ(state.message.find("E-1"), std::string::npos);
+    rated.insert(state.steps.lessons->finished->id);
+    SetScore(board.filled, board.forms.at(0).items.at(0).id, 3);
+    app::Run(state, "keep-rating");
+    EXPECT_FALSE(IsBlinded(state));
+    EXPECT_TRUE(SaysWhose(state));
+    EXPECT_NE(board.kept.find(state.steps.lessons->finished->trainee), std::string::npos);
+  }
+  EXPECT_EQ(rated, (std::set{lab.first, expert})) << "one was rated twice";
+  app::Run(state, "rate-blinded");
+  EXPECT_EQ(state.dialogs.size(), 1U) << "none is left";
+  Records records(lab.place);
+  for (const FormRow& form : ReadBundle(records).forms) EXPECT_TRUE(form.blinded);
+}
+
+TEST(RatingBoard, IsNotBlindedOnceTheAttemptWasOpenedFromTheList) {
+  Lab lab;
+  WriteAtomically(lab.folder / LogNameOf(lab.first), "log");
+  app::Run(lab.state, "instructor-page");
+  lab.board();
+  ChooseCell(lab.state, lab.RowIndex("T-1"), 0);
+  lab.board();
+  app::Run(lab.state, "rate-blinded");
+  ASSERT_TRUE(IsBlinded(lab.state));
+  ShowStoredAttempt(lab.state, lab.first);
+  EXPECT_FALSE(IsBlinded(lab.state));
 }
 
 TEST(CohortBoard, OfRecordsThatCannotBeReadSaysWhy) {

@@ -2,6 +2,9 @@
 // the attempt again.
 #include "app/steps/lessons/keeping/lesson_records.h"
 
+#include <cstdlib>
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include "app/editor/every_step.h"
@@ -122,6 +125,33 @@ TEST(LessonRecords, OfANewerSchemaLeaveTheAttemptInTheOutbox) {
   EXPECT_NE(window.state.message.find("schema 99"), std::string::npos) << window.state.message;
   app::Run(window.state, "leave-practice");
   EXPECT_NE(window.step().finished->kept.find("outbox"), std::string::npos);
+}
+
+TEST(LessonRecords, AnAttemptThatNothingTookIsNotLostToTheNextOne) {
+  Window window;
+  window.step().start->unknown = "T-1";
+  AddTraineeCode(window.state);
+  window.Practise(5);
+  // Neither the records nor the outbox nor the data folder of this user can be written.
+  const auto block = [&](const char* name) {
+    std::ofstream(window.folder / name) << "a file in the place of the folder";
+  };
+  block("outbox");
+  block("data");
+  ::setenv("XDG_DATA_HOME", (window.folder / "data").c_str(), 1);
+  {
+    Records records(window.place);
+    records.database().Do("UPDATE meta SET value = '99' WHERE key = 'schema'");
+  }
+  app::Run(window.state, "leave-practice");
+  EXPECT_TRUE(HasUnkeptAttempt(window.state));
+  app::Run(window.state, "begin-exercise");
+  EXPECT_FALSE(window.state.practice);
+  ASSERT_EQ(window.state.dialogs.size(), 1U);
+  EXPECT_TRUE(HasUnkeptAttempt(window.state));
+  Database(window.place, 1).Do("UPDATE meta SET value = '1' WHERE key = 'schema'");
+  app::Run(window.state, "keep-attempt");
+  EXPECT_EQ(window.Kept("T-1").size(), 1U);
 }
 
 TEST(StartBoard, ShowsTriesAndWhichExerciseMustComeFirst) {

@@ -1,6 +1,7 @@
 // Attempts from begin to record: log first, results after, whatever the database does meanwhile.
 #include "app/records/keeping/kept_attempt.h"
 
+#include <cstdlib>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -186,8 +187,15 @@ TEST(KeptAttempt, OfADatabaseThatIsLockedAtTheEndGoesToTheOutbox) {
   EXPECT_EQ(ReadAttempt(records, kept.record().id)->outcome, AttemptOutcome::kFailed);
 }
 
+// A data folder of the user in which nothing can be made, so that there is no spare folder.
+void BlockDataFolder(const TempFolder& folder) {
+  std::ofstream(folder / "data") << "a file in the place of the folder";
+  ::setenv("XDG_DATA_HOME", (folder / "data").c_str(), 1);
+}
+
 TEST(KeptAttempt, IsNotLostWhereNeitherRecordsNorOutboxTakeIt) {
   TempFolder folder;
+  BlockDataFolder(folder);
   std::ofstream(folder / "outbox") << "a file in the place of the folder";
   KeptAttempt kept(nullptr, folder.path(), std::nullopt, PlanOf(FreePractice()));
   EXPECT_EQ(kept.notices().size(), 1U);
@@ -198,6 +206,7 @@ TEST(KeptAttempt, IsNotLostWhereNeitherRecordsNorOutboxTakeIt) {
 
 TEST(KeptAttempt, WithoutALogKeepsItsResultAndSaysSo) {
   Station station;
+  BlockDataFolder(station.folder);
   std::filesystem::remove_all(station.folder / "attempts");
   std::ofstream(station.folder / "attempts") << "a file in the place of the folder";
   KeptAttempt kept(&station.records, station.folder.path(), station.session,

@@ -92,7 +92,7 @@ void RunningAttemptWhoseProgramIsGoneIsStopped(const Place& place) {
   EXPECT_TRUE(RecoverAttempts(records, {}).empty()) << "these are of another folder";
   // A program that is killed leaves its mark without a lock.
   for (const std::string& id : {dead, unreadable})
-    WriteAtomically(place.folder / "attempts" / (id + ".running"), "");
+    WriteAtomically(place.folder / MarkNameOf(id), "");
   const auto said = RecoverAttempts(records, [&](const AttemptRecord& record) {
     return record.id == dead ? std::optional(SampleResult(31)) : std::nullopt;
   });

@@ -1,7 +1,9 @@
 #include "app/steps/lessons/instructor/cohort_board.h"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -34,41 +36,56 @@ bool HasChoice(const CohortBoard& board) {
   return board.row >= 0 && board.row < static_cast<int>(board.rows.size());
 }
 
-void ReadRows(Records& records, const EditorState& state, CohortBoard& board) {
-  board.cohorts.clear();
-  std::string cohort, cohort_id;
-  for (const CohortRow& row : CohortsOf(records)) {
-    if (static_cast<int>(board.cohorts.size()) == board.cohort) {
-      cohort = row.name;
-      cohort_id = row.id;
-    }
-    board.cohorts.push_back(row.name);
-  }
-  std::vector<std::string> codes;
-  for (const TraineeRow& trainee : TraineesOf(records))
-    if (cohort_id.empty() || trainee.cohort == cohort_id) codes.push_back(trainee.code);
-  board.rows =
-      CohortRows(codes, state.document().scene.exercises, CohortStandings(records, cohort));
+bool HasPart(const std::string& text, const std::string& part) {
+  return !std::ranges::search(
+              text, part,
+              [](unsigned char a, unsigned char b) { return std::toupper(a) == std::toupper(b); })
+              .empty() ||
+         part.empty();
 }
 
-// The first group of this exercise whose metrics are of this version.
-void SetBand(Records& records, const std::string& hash, const std::string& metric,
-             const std::string& part, LearningCurve& curve) {
-  for (const ReferenceGroup& group : ReferenceGroupsOf(records)) {
-    if (group.exercise != hash || group.metrics_version != simulation::kMetricsVersion) continue;
-    for (const ReferenceValueRow& row : group.values) {
-      if (row.metric != metric || (!part.empty() && row.part != part) || !row.q1 || !row.q3)
-        continue;
-      curve.band = {*row.q1, *row.q3};
-      curve.band_words = fmt::format("{}, n = {}", group.name, row.n);
-      return;
-    }
+// The rows of the chosen cohort without their cells, which are read as they are shown.
+void ReadRows(Records& records, CohortBoard& board) {
+  board.cohorts.clear();
+  board.rows.clear();
+  std::string cohort_id;
+  for (const CohortRow& row : CohortsOf(records)) {
+    if (row.name == board.choice.cohort) cohort_id = row.id;
+    board.cohorts.push_back(row.name);
+  }
+  if (cohort_id.empty()) board.choice.cohort.clear();  // it is no more
+  for (const TraineeRow& trainee : TraineesOf(records))
+    if ((cohort_id.empty() || trainee.cohort == cohort_id) && HasPart(trainee.code, board.search))
+      board.rows.push_back({trainee.code, {}});
+}
+
+// Group whose band is drawn: the one that was chosen, or the first; empty: none.
+std::string GroupOf(const CohortBoard& board) {
+  if (!board.choice.has_band || board.groups.empty()) return "";
+  if (board.choice.group.empty()) return board.groups.front();
+  return std::ranges::count(board.groups, board.choice.group) > 0 ? board.choice.group : "";
+}
+
+void ReadBand(Records& records, const std::string& hash, const std::string& metric,
+              const std::string& part, CohortBoard& board) {
+  const auto groups = ReferenceGroupsAt(records, hash, simulation::kMetricsVersion);
+  board.groups.clear();
+  for (const ReferenceGroup& group : groups) board.groups.push_back(group.name);
+  const auto chosen = std::ranges::find(groups, GroupOf(board), &ReferenceGroup::name);
+  if (chosen == groups.end()) return;
+  for (const ReferenceValueRow& row : chosen->values) {
+    if (row.metric != metric || (!part.empty() && row.part != part) || !row.q1 || !row.q3) continue;
+    board.curve.band = {*row.q1, *row.q3};
+    board.curve.band_words = fmt::format("{}, n = {}", chosen->name, row.n);
+    return;
   }
 }
 
 void ReadCurve(Records& records, const EditorState& state, CohortBoard& board) {
+  board.is_curve_stale = false;
   board.curve = {};
   board.metrics.clear();
+  board.groups.clear();
   const Exercise* exercise = ChosenOf(state, board);
   if (exercise == nullptr || !HasChoice(board)) return;
   board.metrics.emplace_back("task_time", "both");
@@ -78,63 +95,67 @@ void ReadCurve(Records& records, const EditorState& state, CohortBoard& board) {
       board.metrics.push_back(key);
   board.metric = std::clamp(board.metric, 0, static_cast<int>(board.metrics.size()) - 1);
   const auto& [metric, part] = board.metrics[static_cast<std::size_t>(board.metric)];
-  const std::string hash = HashOf(*exercise);
+  const std::string& hash = board.hashes.at(static_cast<std::size_t>(board.exercise));
   board.curve = CurveOf(ProgressOf(records, board.rows[static_cast<std::size_t>(board.row)].code,
                                    hash, metric, part));
-  SetBand(records, hash, metric, part, board.curve);
+  ReadBand(records, hash, metric, part, board);
 }
 
-// Reads the page anew; what the records refuse is its fault.
-void Read(EditorState& state) {
+// Runs `work` on the records; what they refuse is the page's fault.
+template <class Work>
+void Try(EditorState& state, const Work& work) {
   CohortBoard& board = BoardOf(state);
   LessonRecords& own = *state.steps.lessons->records;
-  board.fault.clear();
-  board.is_stale = false;
-  board.document = state.document_number;
-  if (own.place.empty()) {
-    board.fault = "This window keeps no records.";
-    return;
-  }
   try {
-    if (!ReachRecords(own)) {
-      board.fault = own.fault;
-      return;
-    }
-    const std::string chosen =
-        HasChoice(board) ? board.rows[static_cast<std::size_t>(board.row)].code : "";
-    ReadRows(*own.open, state, board);
-    const auto row = std::ranges::find(board.rows, chosen, &CohortRowOfPage::code);
-    board.row = row == board.rows.end() ? -1 : static_cast<int>(row - board.rows.begin());
-    ReadCurve(*own.open, state, board);
+    if (ReachRecords(own))
+      work(*own.open);
+    else
+      board.fault = own.place.empty() ? "This window keeps no records." : own.fault;
   } catch (const Error& fault) {
     board.fault = fault.what();
   }
 }
 
+// Reads the codes anew; a trainee that was chosen stays so.
+void Read(EditorState& state) {
+  CohortBoard& board = BoardOf(state);
+  board.fault.clear();
+  board.is_stale = false;
+  board.is_curve_stale = true;
+  board.document = state.document_number;
+  board.hashes = HashesOf(state.document().scene.exercises);
+  const LessonRecords& own = *state.steps.lessons->records;
+  if (!own.place.empty() && !board.knows_choice) board.choice = ReadInstructorChoice(FolderOf(own));
+  board.knows_choice = true;
+  const std::string chosen =
+      HasChoice(board) ? board.rows[static_cast<std::size_t>(board.row)].code : "";
+  Try(state, [&](Records& records) { ReadRows(records, board); });
+  const auto row = std::ranges::find(board.rows, chosen, &CohortRowOfPage::code);
+  board.row = row == board.rows.end() ? -1 : static_cast<int>(row - board.rows.begin());
+}
+
+void KeepChoice(EditorState& state) {
+  const LessonRecords& records = *state.steps.lessons->records;
+  if (!records.place.empty()) WriteInstructorChoice(FolderOf(records), BoardOf(state).choice);
+}
+
 }  // namespace
 
-std::vector<CohortRowOfPage> CohortRows(const std::vector<std::string>& codes,
-                                        const std::vector<Exercise>& exercises,
-                                        const std::vector<Standing>& standings) {
-  std::map<std::string, std::vector<Standing>> by_code;
-  for (const Standing& standing : standings) by_code[standing.trainee].push_back(standing);
-  const std::vector<std::string> hashes = HashesOf(exercises);
-  std::vector<CohortRowOfPage> rows;
-  for (const std::string& code : codes) {
-    CohortRowOfPage& row = rows.emplace_back();
-    row.code = code;
-    const auto board = StandingsFor(exercises, hashes, by_code[code], {});
-    for (std::size_t i = 0; i < exercises.size(); ++i) {
-      CohortCell& cell = row.cells.emplace_back();
-      cell.tries = board[i].tries;
-      cell.passes = board[i].passes;
-      cell.last = board[i].last_outcome;
-      cell.is_gate_passed = board[i].tries > 0 && board[i].gate.is_open;
-      for (const Standing& standing : by_code[code])
-        if (standing.exercise == hashes[i]) cell.is_gate_opened = standing.is_gate_opened;
-    }
+std::vector<CohortCell> CellsOf(const std::vector<Exercise>& exercises,
+                                const std::vector<std::string>& hashes,
+                                const std::vector<Standing>& standings) {
+  const auto board = StandingsFor(exercises, hashes, standings, {});
+  std::vector<CohortCell> cells(exercises.size());
+  for (std::size_t i = 0; i < exercises.size(); ++i) {
+    CohortCell& cell = cells[i];
+    cell.tries = board[i].tries;
+    cell.passes = board[i].passes;
+    cell.last = board[i].last_outcome;
+    cell.is_gate_passed = board[i].tries > 0 && board[i].gate.is_open;
+    for (const Standing& standing : standings)
+      if (standing.exercise == hashes[i]) cell.is_gate_opened = standing.is_gate_opened;
   }
-  return rows;
+  return cells;
 }
 
 std::string CusumAdvice(const std::vector<double>& cusum) {
@@ -174,8 +195,36 @@ LearningCurve CurveOf(std::vector<AttemptPoint> points) {
 
 CohortBoard& FreshCohortBoard(EditorState& state) {
   CohortBoard& board = BoardOf(state);
-  if (board.is_stale || board.document != state.document_number) Read(state);
+  if (board.is_stale || board.document != state.document_number ||
+      board.hashes.size() != state.document().scene.exercises.size())
+    Read(state);
+  if (board.is_curve_stale) Try(state, [&](Records& records) { ReadCurve(records, state, board); });
+  board.is_curve_stale = false;  // nor is it asked for again where the records refuse it
   return board;
+}
+
+void ReadShownRows(EditorState& state, int first, int last) {
+  CohortBoard& board = BoardOf(state);
+  const auto& exercises = state.document().scene.exercises;
+  if (exercises.empty()) return;
+  // Some rows more than are shown, so that a slow scroll asks once in a while.
+  constexpr int kMore = 16;
+  const auto is_unread = [](const CohortRowOfPage& row) { return row.cells.empty(); };
+  const auto begin = board.rows.begin();
+  last = std::min(last, static_cast<int>(board.rows.size()));
+  if (first >= last || std::none_of(begin + first, begin + last, is_unread)) return;
+  const int end = std::min(last + kMore, static_cast<int>(board.rows.size()));
+  std::vector<std::string> codes;
+  for (int row = std::max(0, first - kMore); row < end; ++row)
+    if (is_unread(begin[row])) codes.push_back(begin[row].code);
+  std::map<std::string, std::vector<Standing>> by_code;
+  Try(state, [&](Records& records) {
+    for (Standing& standing : StandingsOf(records, codes))
+      by_code[standing.trainee].push_back(std::move(standing));
+  });
+  for (const std::string& code : codes)
+    std::ranges::find(board.rows, code, &CohortRowOfPage::code)->cells =
+        CellsOf(exercises, board.hashes, by_code[code]);
 }
 
 void ShowInstructorPage(EditorState& state) {
@@ -183,8 +232,14 @@ void ShowInstructorPage(EditorState& state) {
   state.steps.lessons->page = LessonPage::kInstructor;
 }
 
-void ChooseCohort(EditorState& state, int cohort) {
-  BoardOf(state).cohort = cohort;
+void ChooseCohort(EditorState& state, const std::string& cohort) {
+  BoardOf(state).choice.cohort = cohort;
+  BoardOf(state).is_stale = true;
+  KeepChoice(state);
+}
+
+void FindTrainees(EditorState& state, const std::string& part_of_code) {
+  BoardOf(state).search = part_of_code;
   BoardOf(state).is_stale = true;
 }
 
@@ -193,12 +248,20 @@ void ChooseCell(EditorState& state, int row, int exercise) {
   board.row = row;
   board.exercise = exercise;
   board.metric = 0;
-  board.is_stale = true;
+  board.is_curve_stale = true;
 }
 
 void ChooseMetric(EditorState& state, int metric) {
   BoardOf(state).metric = metric;
-  BoardOf(state).is_stale = true;
+  BoardOf(state).is_curve_stale = true;
+}
+
+void ChooseGroup(EditorState& state, const std::string& group) {
+  CohortBoard& board = BoardOf(state);
+  board.choice.has_band = !group.empty();
+  if (!group.empty()) board.choice.group = group;
+  board.is_curve_stale = true;
+  KeepChoice(state);
 }
 
 bool MayOpenGate(const EditorState& state) {

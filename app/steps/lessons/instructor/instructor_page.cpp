@@ -1,6 +1,7 @@
 // The instructor's page: trainees by exercises, and for a chosen pair the learning curve with the
 // band of a group, CUSUM as advice, the attempts, and the gate.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@
 namespace arthro::app {
 namespace {
 
-constexpr float kCodeWidth = 84, kCellWidth = 72;  // px at scale 1
+constexpr float kCodeWidth = 84, kCellWidth = 72, kMostCellWidth = 200;  // px at scale 1
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
 void Head(Ui& ui, EditorState& state, const CohortBoard& board) {
@@ -25,8 +26,21 @@ void Head(Ui& ui, EditorState& state, const CohortBoard& board) {
   ImGui::BeginChild("cohort choice", {ui.Px(240), ui.Px(54)});
   std::vector<std::string> cohorts = {"All cohorts"};
   cohorts.insert(cohorts.end(), board.cohorts.begin(), board.cohorts.end());
-  int chosen = board.cohort + 1;
-  if (Combo(ui, "Cohort", chosen, cohorts)) ChooseCohort(state, chosen - 1);
+  const auto own = std::ranges::find(cohorts, board.choice.cohort);
+  int chosen = own == cohorts.end() ? 0 : static_cast<int>(own - cohorts.begin());
+  if (Combo(ui, "Cohort", chosen, cohorts))
+    ChooseCohort(state, chosen == 0 ? "" : cohorts[static_cast<std::size_t>(chosen)]);
+  ImGui::EndChild();
+  ImGui::SameLine(0, ui.Px(12));
+  ImGui::BeginChild("search", {ui.Px(200), ui.Px(54)});
+  std::string search = board.search;
+  if (TextField(ui, "Find", search, "part of a code")) FindTrainees(state, search);
+  ImGui::EndChild();
+  ImGui::SameLine(0, ui.Px(12));
+  ImGui::BeginChild("count", {ui.Px(160), ui.Px(54)});
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ui.Px(26));
+  QuietText(ui,
+            board.rows.size() == 1 ? "1 trainee" : fmt::format("{} trainees", board.rows.size()));
   ImGui::EndChild();
 }
 
@@ -49,19 +63,30 @@ void Cell(Ui& ui, EditorState& state, const CohortBoard& board, int row, int exe
     QuietText(ui, cell.last);
 }
 
-void Table(Ui& ui, EditorState& state, const CohortBoard& board, float height) {
+// The cells share the page's width; where they would get too narrow, the table scrolls instead.
+float CellWidth(const Ui& ui, float width, std::size_t cells) {
+  const float between = 2 * ImGui::GetStyle().CellPadding.x + 1;
+  const float room = width - ImGui::GetStyle().ScrollbarSize - ui.Px(kCodeWidth) - between;
+  return std::clamp(
+      std::floor(room / static_cast<float>(std::max<std::size_t>(cells, 1))) - between,
+      ui.Px(kCellWidth), ui.Px(kMostCellWidth));
+}
+
+void Table(Ui& ui, EditorState& state, const CohortBoard& board, float width, float height) {
   const auto& exercises = state.document().scene.exercises;
   if (board.rows.empty())
-    return QuietText(ui, "No trainee is in these records yet; the trainee's page adds them.");
+    return QuietText(ui, board.search.empty() && board.choice.cohort.empty()
+                             ? "No trainee is in these records yet; the trainee's page adds them."
+                             : "No trainee of this cohort has such a code.");
   const int columns = static_cast<int>(exercises.size()) + 1;
   constexpr auto kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY |
                           ImGuiTableFlags_ScrollX | ImGuiTableFlags_BordersInnerV;
   if (!ImGui::BeginTable("cohort", columns, kFlags, {0, height})) return;
   ImGui::TableSetupScrollFreeze(1, 1);
   ImGui::TableSetupColumn("trainee", ImGuiTableColumnFlags_WidthFixed, ui.Px(kCodeWidth));
-  for (std::size_t i = 0; i < exercises.size(); ++i)
-    ImGui::TableSetupColumn(exercises[i].id.c_str(), ImGuiTableColumnFlags_WidthFixed,
-                            ui.Px(kCellWidth));
+  const float cell = CellWidth(ui, width, exercises.size());
+  for (const Exercise& exercise : exercises)
+    ImGui::TableSetupColumn(exercise.id.c_str(), ImGuiTableColumnFlags_WidthFixed, cell);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   QuietText(ui, "Trainee");
@@ -69,13 +94,18 @@ void Table(Ui& ui, EditorState& state, const CohortBoard& board, float height) {
     ImGui::TableNextColumn();
     QuietText(ui, fmt::format("{}. {}", i + 1, exercises[i].title));
   }
-  for (std::size_t row = 0; row < board.rows.size(); ++row) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    Text(ui, board.rows[row].code);
-    for (std::size_t i = 0; i < exercises.size(); ++i) {
+  ImGuiListClipper shown;
+  shown.Begin(static_cast<int>(board.rows.size()));
+  while (shown.Step()) {
+    ReadShownRows(state, shown.DisplayStart, shown.DisplayEnd);
+    for (int row = shown.DisplayStart; row < shown.DisplayEnd; ++row) {
+      ImGui::TableNextRow();
       ImGui::TableNextColumn();
-      Cell(ui, state, board, static_cast<int>(row), static_cast<int>(i));
+      Text(ui, board.rows[static_cast<std::size_t>(row)].code);
+      for (int i = 0; i < columns - 1; ++i) {
+        ImGui::TableNextColumn();
+        Cell(ui, state, board, row, i);
+      }
     }
   }
   ImGui::EndTable();
@@ -137,15 +167,42 @@ Plot CusumPlot(const LearningCurve& curve) {
   return plot;
 }
 
+// Choice of the reference group whose band is drawn.
+void Band(Ui& ui, EditorState& state, const CohortBoard& board) {
+  std::vector<std::string> groups = {"No band"};
+  groups.insert(groups.end(), board.groups.begin(), board.groups.end());
+  int chosen = 0;
+  if (board.choice.has_band && groups.size() > 1) {
+    const auto own = std::ranges::find(groups, board.choice.group);
+    chosen = board.choice.group.empty() ? 1
+             : own == groups.end()      ? -1
+                                        : static_cast<int>(own - groups.begin());
+  }
+  if (Combo(ui, "Band", chosen, groups, "The reference group whose middle half is drawn."))
+    ChooseGroup(state, chosen == 0 ? "" : groups[static_cast<std::size_t>(chosen)]);
+}
+
+std::string BandWords(const CohortBoard& board) {
+  if (!board.curve.band_words.empty())
+    return fmt::format("Dots: attempts. Line: median of three. Band: middle half of {}.",
+                       board.curve.band_words);
+  if (board.groups.empty())
+    return "Dots: attempts. Line: median of three. There is no reference group.";
+  return "Dots: attempts. Line: median of three.";
+}
+
 void Curves(Ui& ui, EditorState& state, const CohortBoard& board, float width, float height) {
   std::vector<std::string> words;
   for (const auto& [metric, part] : board.metrics) words.push_back(MetricWords(metric, part));
   int chosen = board.metric;
+  ImGui::BeginChild("metric choice", {ui.Px(260), ui.Px(54)});
   if (Combo(ui, "Metric", chosen, words)) ChooseMetric(state, chosen);
-  QuietText(ui, board.curve.band_words.empty()
-                    ? "Dots: attempts. Line: median of three. There is no reference group."
-                    : fmt::format("Dots: attempts. Line: median of three. Band: middle half of {}.",
-                                  board.curve.band_words));
+  ImGui::EndChild();
+  ImGui::SameLine(0, ui.Px(12));
+  ImGui::BeginChild("group choice", {ui.Px(220), ui.Px(54)});
+  Band(ui, state, board);
+  ImGui::EndChild();
+  QuietText(ui, BandWords(board));
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float rest = height - (corner.y - ImGui::GetWindowPos().y) - ui.Px(34);
   const float half = (width - ui.Px(8)) / 2;
@@ -169,11 +226,13 @@ void Attempts(Ui& ui, EditorState& state, const CohortBoard& board, float height
   }
   if (board.curve.points.empty()) QuietText(ui, "No attempt yet.");
   ImGui::EndChild();
+  CommandButton(ui, state, "rate-blinded", {-FLT_MIN, ui.Px(36)});
   if (!opened.empty()) Guarded(state, "Attempt", [&] { ShowStoredAttempt(state, opened); });
 }
 
 void Gate(Ui& ui, EditorState& state, CohortBoard& board) {
   Heading(ui, "Gate");
+  ReadShownRows(state, board.row, board.row + 1);
   const CohortCell& cell = board.rows[static_cast<std::size_t>(board.row)]
                                .cells[static_cast<std::size_t>(board.exercise)];
   if (cell.is_gate_opened) return ColouredText(ui, "Opened by an instructor.", kWarning);
@@ -192,8 +251,9 @@ void InstructorPage(Ui& ui, EditorState& state) {
   if (!board.fault.empty()) ColouredText(ui, board.fault, kWarning);
   const float top = ImGui::GetCursorPosY();
   const bool has_choice = board.row >= 0 && board.exercise >= 0 && !board.metrics.empty();
-  const float below = has_choice ? std::max(ui.Px(300), 0.46f * room.y) : 0;
-  Table(ui, state, board, std::max(ui.Px(80), room.y - top - foot - below - ui.Px(16)));
+  // In a low window the page scrolls as a whole, and not its parts.
+  const float below = has_choice ? std::max(ui.Px(350), 0.46f * room.y) : 0;
+  Table(ui, state, board, room.x, std::max(ui.Px(170), room.y - top - foot - below - ui.Px(16)));
   if (has_choice) {
     const float curves = room.x - side - ui.Px(16);
     ImGui::BeginChild("curves", {curves, below});
@@ -205,7 +265,7 @@ void InstructorPage(Ui& ui, EditorState& state) {
     ImGui::EndChild();
     ImGui::SameLine(0, ui.Px(16));
     ImGui::BeginChild("cell", {0, below});
-    Attempts(ui, state, board, std::max(ui.Px(60), below - ui.Px(230)));
+    Attempts(ui, state, board, std::max(ui.Px(60), below - ui.Px(276)));
     Gate(ui, state, board);
     ImGui::EndChild();
   } else if (!board.rows.empty()) {

@@ -1,5 +1,6 @@
 // A rating form beside the look back at an attempt of the records. Forms are data
-// (resources/forms); no sum of the scores is formed.
+// (resources/forms); no sum of the scores is formed. A blinded rating is one of an attempt that the
+// page has chosen, whose trainee, date, result and earlier ratings it hides until the form is kept.
 #pragma once
 
 #include <string>
@@ -15,7 +16,8 @@ struct RatingBoard {
   int form = 0;
   FormRow filled;  // scores so far, rater and comment
   bool is_shown = false;
-  std::string kept;  // sentence about what was kept; empty: nothing yet
+  std::string kept;             // sentence about what was kept; empty: nothing yet
+  std::string blinded_attempt;  // id of the attempt that is rated blinded; empty: none
 };
 
 // Score of an item; −1: not rated.

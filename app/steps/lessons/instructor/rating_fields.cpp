@@ -47,10 +47,14 @@ void RatingFields(Ui& ui, EditorState& state) {
   for (const FormItem& item : form.items) Item(ui, board.filled, item);
   TextField(ui, "Comment", board.filled.comment);
   TextField(ui, "Rater's code", board.filled.rater, "for example I-2");
-  Checkbox(ui, "Blinded", board.filled.blinded,
-           "The rater did not know whose attempt it was; the page does not say it.");
+  if (board.kept.empty())
+    QuietText(ui, IsBlinded(state)
+                      ? "Blinded: trainee, date, result and earlier ratings are hidden until the "
+                        "rating is kept."
+                      : "Not blinded: the page has said whose attempt it is.");
   if (!board.kept.empty()) ColouredText(ui, board.kept, kGood);
   CommandButton(ui, state, "keep-rating", {-FLT_MIN, ui.Px(40)});
+  if (MayRateBlinded(state)) CommandButton(ui, state, "rate-blinded", {-FLT_MIN, ui.Px(40)});
 }
 
 }  // namespace arthro::app

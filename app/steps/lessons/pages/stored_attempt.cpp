@@ -8,6 +8,7 @@
 #include "app/records/attempts/records_file.h"
 #include "app/report/make_report.h"
 #include "app/state/command.h"
+#include "app/steps/lessons/instructor/rating_board.h"
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/lessons_step.h"
 #include "simulation/core/atomic_file.h"
@@ -72,6 +73,7 @@ void ShowStoredAttempt(EditorState& state, const std::string& id) {
   step.chosen = own == exercises.end() ? -1 : static_cast<int>(own - exercises.begin());
   step.finished = std::move(shown);
   step.debrief = {};
+  step.rating->blinded_attempt.clear();
   step.page = LessonPage::kSummary;
 }
 

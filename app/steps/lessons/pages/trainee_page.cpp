@@ -14,7 +14,7 @@
 namespace arthro::app {
 namespace {
 
-constexpr float kNumberWidth = 90, kButtonWidth = 110;  // px at scale 1
+constexpr float kNumberWidth = 76, kButtonWidth = 110;  // px at scale 1
 
 void WhoPractises(Ui& ui, EditorState& state) {
   LessonRecords& records = *state.steps.lessons->records;
@@ -64,7 +64,7 @@ void Exercises(Ui& ui, EditorState& state, const StartBoard& board) {
   ImGui::TableSetupColumn("exercise", ImGuiTableColumnFlags_WidthStretch, 3);
   ImGui::TableSetupColumn("best", ImGuiTableColumnFlags_WidthFixed, ui.Px(kNumberWidth));
   ImGui::TableSetupColumn("tries", ImGuiTableColumnFlags_WidthFixed, ui.Px(kNumberWidth));
-  ImGui::TableSetupColumn("gate", ImGuiTableColumnFlags_WidthStretch, 3);
+  ImGui::TableSetupColumn("gate", ImGuiTableColumnFlags_WidthStretch, 2);
   ImGui::TableSetupColumn("start", ImGuiTableColumnFlags_WidthFixed, ui.Px(kButtonWidth));
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableNextRow();

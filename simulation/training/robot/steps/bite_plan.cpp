@@ -15,6 +15,7 @@ namespace {
 constexpr double kGrid = 4e-4;      // m, of the points that stand for the tissue
 constexpr double kAround = 2.5e-3;  // m about the regions in which the rest of the tissue counts
 constexpr double kBlocked = 0.5;    // cost of a point in the way of a jaw
+constexpr double kNeck = 4e-4;      // m about a bite, in which what is left holds nothing
 constexpr int kRolls = 24;
 constexpr double kMiddles = 7e-4;  // m, between places of a bite
 constexpr double kBeyond = 1e-3;   // m, of such a place outside of the regions
@@ -39,6 +40,48 @@ void Crossings(const SurfaceMesh& skin, double y, double z, std::vector<double>&
   std::ranges::sort(at);
 }
 
+// Links points that lie beside each other on the grid. `numbers`: of the points, by their cells, −1
+// for none; x runs fastest.
+void LinkNeighbours(std::vector<TissuePoint>& points, std::span<const int> numbers,
+                    const std::array<int, 3>& cells) {
+  const std::array<int, 3> stride{1, cells[0], cells[0] * cells[1]};
+  for (int cell = 0; cell < static_cast<int>(numbers.size()); ++cell) {
+    const int own = numbers[static_cast<std::size_t>(cell)];
+    if (own < 0) continue;
+    TissuePoint& point = points[static_cast<std::size_t>(own)];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int at = cell / stride[axis] % cells[axis];
+      point.is_held = point.is_held || at == 0 || at == cells[axis] - 1;
+      if (at > 0) point.beside[2 * axis] = numbers[static_cast<std::size_t>(cell - stride[axis])];
+      if (at < cells[axis] - 1)
+        point.beside[2 * axis + 1] = numbers[static_cast<std::size_t>(cell + stride[axis])];
+    }
+  }
+}
+
+// Points that are still held when those with `is_cut` conduct no hold; a cut point may be held, and
+// holds none.
+std::vector<char> HeldPoints(std::span<const TissuePoint> points, std::span<const char> is_cut) {
+  std::vector<char> is_held(points.size(), 0);
+  std::vector<int> next;
+  next.reserve(points.size());
+  const auto reach = [&](int number) {
+    const auto i = static_cast<std::size_t>(number);
+    if (is_held[i] != 0) return;
+    is_held[i] = 1;
+    if (is_cut[i] == 0) next.push_back(number);
+  };
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].is_held) reach(static_cast<int>(i));
+  while (!next.empty()) {
+    const int number = next.back();
+    next.pop_back();
+    for (const int beside : points[static_cast<std::size_t>(number)].beside)
+      if (beside >= 0) reach(beside);
+  }
+  return is_held;
+}
+
 bool IsInCapsule(const glm::dvec3& x, const Capsule& capsule) {
   const glm::dvec3 way = capsule.b - capsule.a;
   const double length2 = glm::dot(way, way);
@@ -57,20 +100,29 @@ std::vector<TissuePoint> PointsOf(const SurfaceMesh& skin, std::span<const Ball>
     low = glm::min(low, ball.centre - (ball.radius + kAround));
     high = glm::max(high, ball.centre + (ball.radius + kAround));
   }
+  std::array<int, 3> cells{};
+  for (int axis = 0; axis < 3; ++axis)
+    cells[static_cast<std::size_t>(axis)] =
+        std::max(0, static_cast<int>(std::ceil((high[axis] - low[axis]) / kGrid)));
+  std::vector<int> numbers;
   std::vector<double> at;
-  for (double z = low.z; z < high.z; z += kGrid)
-    for (double y = low.y; y < high.y; y += kGrid) {
+  for (int k = 0; k < cells[2]; ++k)
+    for (int j = 0; j < cells[1]; ++j) {
+      const double y = low.y + kGrid * j, z = low.z + kGrid * k;
       Crossings(skin, y + 1e-7, z + 1e-7, at);
-      for (double x = low.x; x < high.x; x += kGrid) {
-        const auto before = std::ranges::count_if(at, [x](double each) { return each < x; });
+      for (int i = 0; i < cells[0]; ++i) {
+        const glm::dvec3 p(low.x + kGrid * i, y, z);
+        const auto before = std::ranges::count_if(at, [&](double each) { return each < p.x; });
+        numbers.push_back(before % 2 == 0 ? -1 : static_cast<int>(points.size()));
         if (before % 2 == 0) continue;
-        const glm::dvec3 p(x, y, z);
-        const bool is_wanted = std::ranges::any_of(regions, [&](const Ball& ball) {
+        TissuePoint& point = points.emplace_back();
+        point.x = portal_from_body * p;
+        point.is_wanted = std::ranges::any_of(regions, [&](const Ball& ball) {
           return glm::distance(p, ball.centre) <= ball.radius;
         });
-        points.push_back({portal_from_body * p, is_wanted});
       }
     }
+  LinkNeighbours(points, numbers, cells);
   return points;
 }
 
@@ -113,9 +165,17 @@ double GainAt(std::span<const TissuePoint> points, const glm::dvec3& portal, con
   const Rigid3 portal_from_tool = PortalFromTool(portal, tip, 0);
   const Capsule bite{portal_from_tool * shape.bite.a, portal_from_tool * shape.bite.b,
                      shape.bite.radius};
+  Capsule torn = bite;
+  torn.radius += kNeck;
+  std::vector<char> is_bitten(points.size()), is_cut(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    is_cut[i] = static_cast<char>(IsInCapsule(points[i].x, torn));
+    is_bitten[i] = static_cast<char>(is_cut[i] != 0 && IsInCapsule(points[i].x, bite));
+  }
+  const std::vector<char> is_held = HeldPoints(points, is_cut);
   double gain = 0;
-  for (const TissuePoint& point : points)
-    if (IsInCapsule(point.x, bite)) gain += point.is_wanted ? 1 : -rest;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (is_bitten[i] != 0 || is_held[i] == 0) gain += points[i].is_wanted ? 1 : -rest;
   return gain;
 }
 

@@ -3,6 +3,7 @@
 // it says body. Internal to the robot.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -16,8 +17,10 @@
 namespace arthro::simulation {
 
 struct TissuePoint {
-  glm::dvec3 x;
-  bool is_wanted;  // in a region
+  glm::dvec3 x{0.0};
+  bool is_wanted = false;  // in a region
+  bool is_held = false;    // at the edge of what the points stand for: the tissue goes on beyond
+  std::array<int, 6> beside{-1, -1, -1, -1, -1, -1};  // neighbours along the axes; −1: none
 };
 
 struct Bite {
@@ -34,7 +37,8 @@ void MoveWithSkin(std::vector<TissuePoint>& points, std::span<const glm::dvec3> 
 // Places about the regions, in which bites are tried.
 std::vector<glm::dvec3> MiddlesOf(std::span<const Ball> regions, const Rigid3& portal_from_body);
 
-// Points of the regions in a bite with the tip there, less `rest` per other point.
+// Points of the regions that a bite with the tip there takes, less `rest` per other point. A bite
+// takes what lies in it, and what nothing holds after it.
 double GainAt(std::span<const TissuePoint> points, const glm::dvec3& portal, const glm::dvec3& tip,
               const ToolShape& shape, double rest);
 // The best bite among those places; its gain is 0 where none is good.

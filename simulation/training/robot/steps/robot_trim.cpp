@@ -22,8 +22,9 @@ constexpr double kJaws = 0.3;       // s, in which jaws close or open
 constexpr double kYields = 1.0;     // N at the tip, from which the hand yields
 // Costs of a point of the rest, per point of the regions, from a careful bite to a bold one.
 constexpr std::array kRest = {2.0, 1.0, 0.5};
-constexpr double kTried = 1e-3;  // m about a bite that was not worth it, in which none is tried
-constexpr int kMostBites = 40;
+constexpr double kTried = 1e-3;   // m about a bite that was not worth it, in which none is tried
+constexpr double kLeast = 2e-10;  // m³; a bite that takes less is not tried there again
+constexpr int kMostBites = 60;
 
 const ToolFrame& InstrumentOf(const RobotMind& mind) {
   return mind.joint.frame().tool[Index(DeviceRole::kInstrument)];
@@ -91,18 +92,36 @@ Ball BesideRegion(const SurfaceMesh& skin, const Ball& ball) {
   return beside;
 }
 
+// Volume that the attempt has taken, which a trainee sees in the picture.
+double TakenSoFar(const RobotMind& mind) {
+  double taken = 0;
+  for (const AttemptFrame& frame : mind.joint.frames())
+    taken += static_cast<double>(frame.taken) + static_cast<double>(frame.taken_outside);
+  return taken;
+}
+
+void LeaveOut(std::vector<glm::dvec3>& middles, const glm::dvec3& tried) {
+  std::erase_if(middles, [&](const glm::dvec3& x) { return glm::distance(x, tried) < kTried; });
+}
+
 struct Resection {
   RobotMind& mind;
   int tissue;  // in the scene
   BodyPlaces places;
   Rigid3 portal_from_body;
   std::vector<Ball> regions;  // to bite, frame of the body
-  std::vector<glm::dvec3> middles = MiddlesOf(regions, portal_from_body);
   ToolShape shape = ShapeOf(ToolKind::kPunch);
+  // Middles of bites that are still to be tried, per cost of a point of the rest.
+  std::array<std::vector<glm::dvec3>, kRest.size()> middles = EveryMiddle();
 
+  std::array<std::vector<glm::dvec3>, kRest.size()> EveryMiddle() const {
+    std::array<std::vector<glm::dvec3>, kRest.size()> each;
+    each.fill(MiddlesOf(regions, portal_from_body));
+    return each;
+  }
   void TurnTo(std::vector<Ball> balls) {
     regions = std::move(balls);
-    middles = MiddlesOf(regions, portal_from_body);
+    middles = EveryMiddle();
   }
   const BodyPicture* Picture() const {
     if (const WorldPicture* world = mind.joint.tissues())
@@ -116,21 +135,24 @@ struct Resection {
     return PointsOf(picture == nullptr ? places.surface : picture->skin->surface, regions,
                     portal_from_body);
   }
-  Bite Plan() const {
+  // The most careful bite with a gain, and the number of its cost.
+  std::pair<Bite, std::size_t> Plan() const {
     const std::vector<TissuePoint> points = Points();
-    Bite bite;
-    for (const double rest : kRest)
-      if (!(bite.gain > 0))
-        bite = BestBite(points, middles, mind.joint.instrument_portal(), shape, rest);
-    return bite;
+    for (std::size_t cost = 0; cost < kRest.size(); ++cost) {
+      const Bite bite =
+          BestBite(points, middles[cost], mind.joint.instrument_portal(), shape, kRest[cost]);
+      if (bite.gain > 0) return {bite, cost};
+    }
+    return {};
   }
-  // True where the jaws, where they have come to, hold more of the regions than of the rest.
-  bool IsWorthIt() const {
+  // True where the jaws, where they have come to, hold as much of the regions and as little of the
+  // rest as the bite was planned for. Tissue that yields is not where it was at rest.
+  bool IsWorthIt(double rest) const {
     std::vector<TissuePoint> points = Points();
     if (const BodyPicture* picture = Picture())
       MoveWithSkin(points, picture->skin->surface.vertices, picture->positions, portal_from_body);
     return GainAt(points, mind.joint.instrument_portal(), glm::dvec3(InstrumentOf(mind).drawn_tip),
-                  shape, 1.0) > 0;
+                  shape, rest) > 0;
   }
 };
 
@@ -146,7 +168,7 @@ Resection ResectionOf(RobotMind& mind, int target) {
   return {mind, place.region_tissue, std::move(places), {pose.quaternion, pose.position}, regions};
 }
 
-void TakeBite(Resection& work, const Bite& bite) {
+void TakeBite(Resection& work, const Bite& bite, std::size_t cost) {
   RobotMind& mind = work.mind;
   RodPose pose = PoseOfTip(mind.joint.instrument_portal(), bite.tip, bite.roll);
   mind.hands.Close(false, kJaws);
@@ -156,11 +178,14 @@ void TakeBite(Resection& work, const Bite& bite) {
   if (!mind.hands.Lead(DeviceRole::kInstrument, begin)) return;
   if (SlideTo(mind, pose.depth)) Settle(mind, bite.tip);
   if (!mind.hands.Wait(kRests)) return;
-  if (work.IsWorthIt())
+  if (work.IsWorthIt(std::max(kRest[cost], 1.0))) {
+    const double before = TakenSoFar(mind);
     mind.hands.Close(true, kJaws);
-  else
-    std::erase_if(work.middles,
-                  [&](const glm::dvec3& x) { return glm::distance(x, bite.middle) < kTried; });
+    if (TakenSoFar(mind) - before < kLeast)
+      for (auto& middles : work.middles) LeaveOut(middles, bite.middle);
+  } else {
+    LeaveOut(work.middles[cost], bite.middle);
+  }
   // Jaws that open in the tissue would catch it on the way back.
   WithdrawJaws(mind);
   mind.hands.Close(false, kJaws);
@@ -184,9 +209,9 @@ void Do(RobotMind& mind, const ResectStep& step) {
   }
   for (int bites = 0; bites < kMostBites && mind.IsRunning(); ++bites) {
     if (mind.joint.engine().strip().progress >= 1) break;
-    const Bite bite = work.Plan();
+    const auto [bite, cost] = work.Plan();
     if (!(bite.gain > 0)) break;
-    TakeBite(work, bite);
+    TakeBite(work, bite, cost);
     // The part beside is done with two bites; then the novice turns to the marked one.
     if (mind.Has(RobotFault::kCutsOutside) && bites == 1) work.TurnTo(marked);
   }

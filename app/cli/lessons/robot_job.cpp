@@ -1,0 +1,132 @@
+// arthroscene robot SCENE --exercise ID [method.md, Robots]: an attempt at an exercise by a
+// scripted expert, or by a novice with a planted fault, as a file that `assess` judges.
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/about/about.h"
+#include "app/cli/flags/options_cli.h"
+#include "app/cli/input_files.h"
+#include "app/cli/job_files.h"
+#include "app/cli/jobs.h"
+#include "app/cli/practice/shipped_presets.h"
+#include "app/records/attempts/attempt_record.h"
+#include "app/records/store/records.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/scene/exercise/find_exercise.h"
+#include "simulation/scene/files/scene_io.h"
+#include "simulation/scene/json/exercise_json.h"
+#include "simulation/training/attempt_head.h"
+#include "simulation/training/observe/surface_names.h"
+#include "simulation/training/robot/robot.h"
+#include "simulation/training/scene_of_attempt.h"
+
+namespace arthro::app {
+namespace {
+
+namespace fs = std::filesystem;
+using simulation::RobotFault;
+
+struct RobotJob {
+  fs::path scene, attempt;
+  std::string exercise, fault = "none";
+  simulation::RobotOptions options;
+  bool requires_pass = false;
+};
+
+std::vector<std::string> FaultWords() {
+  std::vector<std::string> words;
+  for (int i = 0; i < simulation::kRobotFaults; ++i)
+    words.emplace_back(ToString(static_cast<RobotFault>(i)));
+  return words;
+}
+
+// The time of the begin is that of the epoch and the id comes from the seed: the same robot leaves
+// the same bytes.
+simulation::AttemptHead HeadOf(const RobotJob& job, const LoadedScene& loaded,
+                               const Exercise& exercise) {
+  Random random(static_cast<std::uint64_t>(job.options.seed));
+  return {.attempt = UuidOf(random),
+          .exercise = exercise.id,
+          .exercise_hash = HashOf(exercise),
+          .scene = loaded.scene.title,
+          .scene_fingerprint = simulation::FingerprintOfScene(loaded),
+          .mode = ToString(AttemptMode::kRobot),
+          .rig = "robot",
+          .started = UtcText(0),
+          .program = fmt::format("arthroscene {}", Version()),
+          .surfaces = simulation::SurfaceNames(loaded.scene)};
+}
+
+void Print(const simulation::AttemptResult& result) {
+  fmt::print("{} after {:.2f} s{}{}\n", ToString(result.outcome), result.duration,
+             result.reason.empty() ? "" : ": ", PrintableLine(result.reason));
+  for (const simulation::CriterionResult& criterion : result.criteria)
+    fmt::print("{:8} {} {} {}\n", criterion.is_met ? "met" : "not met", criterion.metric,
+               criterion.part,
+               criterion.value ? fmt::format("{:.6g}", *criterion.value) : "not measured");
+}
+
+void Run(const RobotJob& job) {
+  CheckOptions(job.options);
+  const LoadedScene loaded = LoadScene(job.scene);
+  const Exercise& exercise = ExerciseWithId(loaded.scene.exercises, job.exercise);
+  simulation::RobotOptions options = job.options;
+  options.fault = *simulation::RobotFaultFromString(job.fault);
+  std::unique_ptr<PartialFile> partial;
+  std::unique_ptr<simulation::AttemptLog> log;
+  if (!job.attempt.empty()) {
+    partial = std::make_unique<PartialFile>(job.attempt, Access::kPrivate);
+    log = std::make_unique<simulation::AttemptLog>(
+        partial->beside(), std::vector<simulation::LogSource>{{"", "", "1", {}}},
+        simulation::AttemptHeadText(HeadOf(job, loaded, exercise)));
+  }
+  const simulation::RobotRun run =
+      simulation::RunRobot(loaded, exercise, ShippedTissuePresets(), options, log.get());
+  if (log) {
+    log->Close();
+    partial->PutInPlace();
+  }
+  for (const std::string& trouble : run.troubles)
+    fmt::print(stderr, "note: {}\n", PrintableLine(trouble));
+  Print(run.result);
+  if (job.requires_pass && run.result.outcome != AttemptOutcome::kPassed)
+    throw Error(
+        Code::kBadData,
+        fmt::format("the robot did not pass, as --require-pass asks for: {}",
+                    run.result.reason.empty() ? "a criterion is not met" : run.result.reason));
+}
+
+}  // namespace
+
+void AddRobotJob(CLI::App& program) {
+  const auto own = std::make_shared<RobotJob>();
+  CLI::App* job = program.add_subcommand(
+      "robot", "Let a scripted expert or novice make an attempt at an exercise, without a window.");
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option("SCENE", own->scene, "Scene folder, scene.json or .arthro archive."),
+              kSceneInput)
+      ->required();
+  job->add_option("--exercise", own->exercise, "Exercise of the scene.")
+      ->required()
+      ->type_name("ID");
+  files->Output(job->add_option("-o,--output", own->attempt,
+                                "Attempt to write (.attempt), which `assess` judges. Default: the "
+                                "result is printed only."),
+                {"an attempt", FileForm::kUnique});
+  job->add_option("--fault", own->fault, "Fault that a novice plants; none for an expert.")
+      ->check(CLI::IsMember(FaultWords()))
+      ->capture_default_str();
+  job->add_flag("--require-pass", own->requires_pass,
+                "Exit with 1 where the robot does not pass; the attempt is written all the same.");
+  AddOptions(*job, own->options);
+  files->Run([own] { Run(*own); });
+}
+
+}  // namespace arthro::app
