@@ -37,7 +37,7 @@ fs::path FolderToWrite(const fs::path& folder) {
   for (const char* part : {"", "attempts", "outbox", "running"})
     if (const fs::path own = folder / part;
         fs::exists(own, ignored) && ::access(own.c_str(), W_OK | X_OK) != 0)
-      if (const fs::path spare = SpareFolder(folder);
+      if (fs::path spare = SpareFolder(folder);
           !spare.empty() && (fs::create_directories(spare, ignored) || fs::exists(spare, ignored)))
         return spare;
   return folder;
@@ -51,7 +51,7 @@ fs::path WriteToOutbox(const fs::path& folder, const RecordsBundle& bundle) {
   if (fault)
     throw Error(Code::kFile, "the outbox could not be made: " + WhyNotWritten(fault.value()),
                 OutboxOf(folder));
-  const fs::path file = OutboxOf(folder) / (bundle.attempts.at(0).id + ".json");
+  fs::path file = OutboxOf(folder) / (bundle.attempts.at(0).id + ".json");
   WriteAtomically(file, RecordsText(bundle), Access::kPrivate);
   return file;
 }

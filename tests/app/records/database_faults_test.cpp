@@ -1,14 +1,18 @@
 // A database that cannot be used says so in one sentence, and the attempt is kept.
+#include <chrono>
 #include <csignal>
+#include <future>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
 
 #include "app/records/attempts/outbox.h"
 #include "app/records/attempts/records_file.h"
+#include "app/records/store/table.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "tests/support/postgres_server.h"
@@ -170,6 +174,44 @@ TEST(DatabaseFault, AServerThatGoesAwayKeepsTheAttemptInTheOutbox) {
   const auto attempts = AttemptsOf(again, "T-1");
   ASSERT_EQ(attempts.size(), 1u);
   EXPECT_EQ(attempts[0].outcome, AttemptOutcome::kFailed);
+}
+
+TEST(DatabaseFault, ACodeThatTwoStationsAddAtOnceIsRefusedForTheSecond) {
+  PostgresServer server;
+  if (!server.why_none().empty()) GTEST_SKIP() << server.why_none();
+  TempFolder folder;
+  RecordsOptions options = RepeatedOptions(3), other_options = RepeatedOptions(4);
+  options.folder = other_options.folder = folder.path();
+  Records records(server.connection(), options), other(server.connection(), other_options);
+  std::future<std::string> second;
+  records.database().Write([&] {
+    TraineeRow trainee = NewTrainee("T-1");
+    trainee.id = records.NewId();
+    trainee.created = records.Now();
+    Insert(records.database(), "trainees", std::vector{trainee});
+    // It does not see the code yet, and waits for this transaction at its own row.
+    second = std::async(std::launch::async,
+                        [&] { return FaultOf([&] { AddTrainee(other, NewTrainee("T-1")); }); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  });
+  EXPECT_NE(second.get().find("belongs to another trainee"), std::string::npos);
+  EXPECT_EQ(TraineesOf(records).size(), 1u);
+}
+
+// An outbox may hold an attempt that the records never take.
+TEST(DatabaseFault, AnAttemptThatIsRefusedDoesNotHoldUpTheOthers) {
+  TempFolder folder;
+  Records records((folder / "r.sqlite").string(), RepeatedOptions());
+  Random random(1);
+  for (int i = 0; i < 3; ++i) {
+    RecordsBundle bundle = Fresh(random);
+    if (i == 1) bundle.sessions.clear();  // it names a session that is nowhere
+    KeepInOutbox(folder.path(), bundle);
+  }
+  const Synced synced = SyncOutbox(records, folder.path());
+  EXPECT_EQ(synced.fresh, 2);
+  EXPECT_EQ(synced.refused.size(), 1u);
+  EXPECT_EQ(SyncOutbox(records, folder.path()).refused.size(), 1u) << "it stays";
 }
 
 TEST(DatabaseFault, APasswordIsNeverShown) {

@@ -37,11 +37,11 @@ bool HasChoice(const CohortBoard& board) {
 }
 
 bool HasPart(const std::string& text, const std::string& part) {
-  return !std::ranges::search(
-              text, part,
-              [](unsigned char a, unsigned char b) { return std::toupper(a) == std::toupper(b); })
-              .empty() ||
-         part.empty();
+  const auto is_same = [](unsigned char a, unsigned char b) {
+    return std::toupper(a) == std::toupper(b);
+  };
+  return part.empty() ||
+         std::search(text.begin(), text.end(), part.begin(), part.end(), is_same) != text.end();
 }
 
 // The rows of the chosen cohort without their cells, which are read as they are shown.

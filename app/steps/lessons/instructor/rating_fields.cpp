@@ -42,16 +42,16 @@ void RatingFields(Ui& ui, EditorState& state) {
     board.filled.items.clear();
     board.kept.clear();
   }
-  const RatingForm& form = board.forms.at(static_cast<std::size_t>(board.form));
-  QuietText(ui, form.note);
-  for (const FormItem& item : form.items) Item(ui, board.filled, item);
-  TextField(ui, "Comment", board.filled.comment);
-  TextField(ui, "Rater's code", board.filled.rater, "for example I-2");
   if (board.kept.empty())
     QuietText(ui, IsBlinded(state)
                       ? "Blinded: trainee, date, result and earlier ratings are hidden until the "
                         "rating is kept."
                       : "Not blinded: the page has said whose attempt it is.");
+  const RatingForm& form = board.forms.at(static_cast<std::size_t>(board.form));
+  QuietText(ui, form.note);
+  for (const FormItem& item : form.items) Item(ui, board.filled, item);
+  TextField(ui, "Comment", board.filled.comment);
+  TextField(ui, "Rater's code", board.filled.rater, "for example I-2");
   if (!board.kept.empty()) ColouredText(ui, board.kept, kGood);
   CommandButton(ui, state, "keep-rating", {-FLT_MIN, ui.Px(40)});
   if (MayRateBlinded(state)) CommandButton(ui, state, "rate-blinded", {-FLT_MIN, ui.Px(40)});

@@ -92,13 +92,17 @@ Ball BesideRegion(const SurfaceMesh& skin, const Ball& ball) {
   return beside;
 }
 
-// Volume that the attempt has taken, which a trainee sees in the picture.
-double TakenSoFar(const RobotMind& mind) {
-  double taken = 0;
-  for (const AttemptFrame& frame : mind.joint.frames())
-    taken += static_cast<double>(frame.taken) + static_cast<double>(frame.taken_outside);
-  return taken;
-}
+// Volumes that the attempt has taken, which a trainee sees in the picture.
+struct TakenSoFar {
+  double inside = 0, outside = 0;  // m³, of the regions
+  explicit TakenSoFar(const RobotMind& mind) {
+    for (const AttemptFrame& frame : mind.joint.frames()) {
+      inside += static_cast<double>(frame.taken);
+      outside += static_cast<double>(frame.taken_outside);
+    }
+  }
+  double all() const { return inside + outside; }
+};
 
 void LeaveOut(std::vector<glm::dvec3>& middles, const glm::dvec3& tried) {
   std::erase_if(middles, [&](const glm::dvec3& x) { return glm::distance(x, tried) < kTried; });
@@ -168,7 +172,8 @@ Resection ResectionOf(RobotMind& mind, int target) {
   return {mind, place.region_tissue, std::move(places), {pose.quaternion, pose.position}, regions};
 }
 
-void TakeBite(Resection& work, const Bite& bite, std::size_t cost) {
+// `is_careless`: the jaws close whatever they hold.
+void TakeBite(Resection& work, const Bite& bite, std::size_t cost, bool is_careless) {
   RobotMind& mind = work.mind;
   RodPose pose = PoseOfTip(mind.joint.instrument_portal(), bite.tip, bite.roll);
   mind.hands.Close(false, kJaws);
@@ -178,10 +183,10 @@ void TakeBite(Resection& work, const Bite& bite, std::size_t cost) {
   if (!mind.hands.Lead(DeviceRole::kInstrument, begin)) return;
   if (SlideTo(mind, pose.depth)) Settle(mind, bite.tip);
   if (!mind.hands.Wait(kRests)) return;
-  if (work.IsWorthIt(std::max(kRest[cost], 1.0))) {
-    const double before = TakenSoFar(mind);
+  if (is_careless || work.IsWorthIt(std::max(kRest[cost], 1.0))) {
+    const double before = TakenSoFar(mind).all();
     mind.hands.Close(true, kJaws);
-    if (TakenSoFar(mind) - before < kLeast)
+    if (TakenSoFar(mind).all() - before < kLeast)
       for (auto& middles : work.middles) LeaveOut(middles, bite.middle);
   } else {
     LeaveOut(work.middles[cost], bite.middle);
@@ -198,10 +203,13 @@ void Do(RobotMind& mind, const ResectStep& step) {
   if (targets.empty()) return;
   LookAtWork(mind, targets, 0.1);
   mind.joint.SetInstrument(ToolKind::kPunch);
+  TouchTooHard(mind, targets.front());
   Resection work = ResectionOf(mind, targets.front());
   const std::vector<Ball> marked = work.regions;
-  // A novice takes a part that nobody marked.
-  if (mind.Has(RobotFault::kCutsOutside)) {
+  // A novice takes a part that nobody marked, until it is more than a criterion allows.
+  bool is_beside = mind.Has(RobotFault::kCutsOutside);
+  const double most = mind.MostOf("taken_outside", "").value_or(0);
+  if (is_beside) {
     std::vector<Ball> beside;
     beside.reserve(marked.size());
     for (const Ball& ball : marked) beside.push_back(BesideRegion(work.places.surface, ball));
@@ -210,10 +218,14 @@ void Do(RobotMind& mind, const ResectStep& step) {
   for (int bites = 0; bites < kMostBites && mind.IsRunning(); ++bites) {
     if (mind.joint.engine().strip().progress >= 1) break;
     const auto [bite, cost] = work.Plan();
-    if (!(bite.gain > 0)) break;
-    TakeBite(work, bite, cost);
-    // The part beside is done with two bites; then the novice turns to the marked one.
-    if (mind.Has(RobotFault::kCutsOutside) && bites == 1) work.TurnTo(marked);
+    const bool is_good = bite.gain > 0;
+    if (is_good) TakeBite(work, bite, cost, is_beside);
+    if (is_beside && (!is_good || TakenSoFar(mind).outside > most)) {
+      work.TurnTo(marked);
+      is_beside = false;
+    } else if (!is_good) {
+      break;
+    }
   }
   if (mind.IsRunning() && mind.joint.engine().strip().progress < 1)
     mind.Trouble("no bite takes more of the regions than of the rest");
