@@ -147,7 +147,11 @@ void JobFiles::Check() const {
   CheckOutputs(files, inputs.files);
   for (const NamedOutput& output : outputs_)
     for (const fs::path& path : PathsOf(*output.option)) {
-      if (output.form == OutputForm::kFolder || output.form == OutputForm::kScene) {
+      if (output.form == OutputForm::kScene && path.extension() == ".arthro" &&
+          scene_file_of_(path) == path) {  // an archive, which is its own file
+        CheckOutputs({path}, inputs.files);
+        CheckScene(path);
+      } else if (output.form == OutputForm::kFolder || output.form == OutputForm::kScene) {
         CheckOutputFolder(path, files);
         if (output.form == OutputForm::kScene) CheckScene(path);
         CheckFolder(path, output.names, inputs);

@@ -52,6 +52,7 @@
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
+#include "simulation/device/live/release_devices.h"
 #include "simulation/scene/image_io.h"
 
 namespace arthro::app {
@@ -478,8 +479,13 @@ class Editor {
 }  // namespace
 
 void RunEditor(const EditorOptions& options) {
-  const EndingSignals signals(Window::WakeUp);  // ends last: it may end the program
+  // Devices let go before the window has finished what it is at. Ends last: it may end the program.
+  const EndingSignals signals([] {
+    simulation::ReleaseDevices();
+    Window::WakeUp();
+  });
   Editor editor(options, signals);
+  const DisplayWatch watch(simulation::ReleaseDevices);
   const DisplayRescue rescue([&editor] { return editor.EndWithoutDisplay(); });
   editor.Run();
   editor.End();

@@ -2,11 +2,16 @@
 
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
+#include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <poll.h>
+#include <sys/eventfd.h>
 #include <thread>
+#include <unistd.h>
 #include <utility>
 
 namespace arthro::app {
@@ -83,5 +88,30 @@ void EndWhenDisplayIsLost() { XSetIOErrorHandler(EndProgram); }
 DisplayRescue::DisplayRescue(std::function<std::string()> rescue) { Rescue() = std::move(rescue); }
 
 DisplayRescue::~DisplayRescue() { Rescue() = {}; }
+
+DisplayWatch::DisplayWatch(std::function<void()> lost) {
+  Display* display = XOpenDisplay(nullptr);
+  stop_ = ::eventfd(0, EFD_CLOEXEC);
+  connection_ = display;
+  if (display == nullptr || stop_ < 0) return;
+  thread_ = std::thread([this, lost = std::move(lost), server = ConnectionNumber(display)] {
+    std::array<pollfd, 2> waits{{{server, POLLRDHUP, 0}, {stop_, POLLIN, 0}}};
+    while (::poll(waits.data(), waits.size(), -1) < 0)
+      if (errno != EINTR) return;
+    if (waits[0].revents == 0) return;
+    is_lost_ = true;
+    lost();
+  });
+}
+
+DisplayWatch::~DisplayWatch() {
+  if (thread_.joinable()) {
+    ::eventfd_write(stop_, 1);
+    thread_.join();
+  }
+  if (stop_ >= 0) ::close(stop_);
+  // Xlib would end the program instead of closing a connection that is lost.
+  if (connection_ != nullptr && !is_lost_) XCloseDisplay(static_cast<Display*>(connection_));
+}
 
 }  // namespace arthro::app

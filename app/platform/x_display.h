@@ -2,9 +2,11 @@
 // an X server that goes away while the window is open.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
+#include <thread>
 
 namespace arthro::app {
 
@@ -30,6 +32,23 @@ class DisplayRescue {
   ~DisplayRescue();
   DisplayRescue(const DisplayRescue&) = delete;
   DisplayRescue& operator=(const DisplayRescue&) = delete;
+};
+
+// Calls `lost` in a thread of its own at the moment at which the X server hangs up. The thread of
+// the window learns it with its next request, which may be many frames later. Does nothing where
+// there is no display.
+class DisplayWatch {
+ public:
+  explicit DisplayWatch(std::function<void()> lost);
+  ~DisplayWatch();
+  DisplayWatch(const DisplayWatch&) = delete;
+  DisplayWatch& operator=(const DisplayWatch&) = delete;
+
+ private:
+  void* connection_ = nullptr;  // its own, on which nothing is asked
+  int stop_ = -1;               // eventfd
+  std::atomic<bool> is_lost_{false};
+  std::thread thread_;
 };
 
 }  // namespace arthro::app

@@ -153,9 +153,11 @@ DeviceSample ServoLoop::ReadDevice(DeviceRole role, double now, HandPush push) n
   Device* device = devices_[Index(role)];
   if (device == nullptr) return {};
   const DeviceSample sample = device->Read(now);
-  device->HoldDeadMan(is_watched_ &&
-                      (request_.is_dead_man_held[Index(role)] ||
-                       (sample.valid && (sample.buttons & options_.dead_man_buttons) != 0)));
+  const bool is_held = request_.is_dead_man_held[Index(role)] ||
+                       (sample.valid && (sample.buttons & options_.dead_man_buttons) != 0);
+  // A dead-man that does not count is not released either: a device that waits for its release
+  // goes on waiting, and is given no force until then.
+  device->HoldDeadMan(is_watched_ ? is_held : device->status().must_release);
   if (sample.valid) report_.sample_age[Index(role)].Add(now - sample.t);
   // A device without force, and any device in zero-force mode, needs no arming. The first tick
   // after that mode counts as not armed, so that the force ramps up.

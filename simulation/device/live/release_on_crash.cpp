@@ -6,7 +6,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
+#include <mutex>
 #include <utility>
+
+#include "simulation/device/live/release_devices.h"
 
 namespace arthro::simulation {
 namespace {
@@ -21,6 +24,7 @@ constexpr std::array kEndNothing{SIGKILL,  SIGSTOP, SIGCHLD, SIGCONT, SIGURG,
 constexpr long kLookAtWriters = 1'000'000, kMostForWriters = 500'000'000;  // ns
 
 std::array<std::atomic<Releasable*>, ReleaseOnCrash::kMost> to_release{};
+std::mutex to_release_changes;  // held by threads, never by a handler
 static_assert(std::atomic<Releasable*>::is_always_lock_free);
 
 // Indexed by signal number; set for handled signals.
@@ -78,8 +82,11 @@ bool MustHandle(int signal) {
 
 ReleaseOnCrash::ReleaseOnCrash(std::vector<std::shared_ptr<Releasable>> devices)
     : devices_(std::move(devices)) {
-  for (std::size_t i = 0; i < std::min(devices_.size(), to_release.size()); ++i)
-    to_release[i] = devices_[i].get();
+  {
+    const std::scoped_lock lock(to_release_changes);
+    for (std::size_t i = 0; i < std::min(devices_.size(), to_release.size()); ++i)
+      to_release[i] = devices_[i].get();
+  }
   struct sigaction action {};
   action.sa_handler = LetGoAndDie;
   action.sa_flags = SA_ONSTACK;
@@ -95,7 +102,14 @@ ReleaseOnCrash::ReleaseOnCrash(std::vector<std::shared_ptr<Releasable>> devices)
 ReleaseOnCrash::~ReleaseOnCrash() {
   RestoreActions();
   is_handled.fill(false);
+  const std::scoped_lock lock(to_release_changes);
   for (auto& device : to_release) device = nullptr;
+}
+
+void ReleaseDevices() noexcept {
+  const std::scoped_lock lock(to_release_changes);
+  for (auto& device : to_release)
+    if (Releasable* own = device.load()) own->Release();
 }
 
 }  // namespace arthro::simulation

@@ -267,6 +267,37 @@ TEST(ServoLoop, IgnoresTheDeadManAfterRequestsHaveStopped) {
   EXPECT_GT(glm::length(servo.scope.force()), 0.1) << "it is back, and so is the force";
 }
 
+// A window that hangs releases nothing: a dead-man that is taped down still arms no device that was
+// lost meanwhile or before.
+TEST(ServoLoop, AHangingWindowIsNoReleaseOfTheDeadMan) {
+  ServoOptions options;
+  options.request_lasts = 0.1;
+  Servo servo(options);
+  servo.HoldDeadMan(false);
+  servo.Tick(10);
+  servo.HoldDeadMan(true);
+  servo.Tick(90);
+  ASSERT_EQ(servo.scope.state(), DeviceState::kArmed);
+  servo.HoldDeadMan(true);
+  servo.scope.SetPlugged(false);
+  servo.Tick(40);
+  servo.scope.SetPlugged(true);
+  servo.Tick(40);
+  ASSERT_EQ(servo.scope.state(), DeviceState::kReady);
+  servo.Tick(200);  // without a request
+  for (int i = 0; i < 10; ++i) {
+    servo.HoldDeadMan(true);
+    servo.Tick(60);
+    ASSERT_EQ(servo.scope.state(), DeviceState::kReady) << i;
+    ASSERT_EQ(servo.scope.force(), glm::dvec3(0.0)) << i;
+  }
+  servo.HoldDeadMan(false);
+  servo.Tick(10);
+  servo.HoldDeadMan(true);
+  servo.Tick(50);
+  EXPECT_EQ(servo.scope.state(), DeviceState::kArmed) << "after a release";
+}
+
 TEST(ServoLoop, CallsItsObserverAfterEachTickWithTheTimeStep) {
   struct Watch final : ServoWatch {
     void AfterTick(const Snapshot& snapshot, double dt) noexcept override {

@@ -45,6 +45,19 @@ TEST_F(AdjustJob, CropsScalesAndTurns) {
   EXPECT_NE(run.out.find("cropped to 200 x 150 px"), std::string::npos) << run.out;
 }
 
+TEST_F(AdjustJob, AnArchiveThatExistsIsReplacedWithOverwriteAlone) {
+  const std::string archive = At("A.arthro");
+  ASSERT_EQ(Adjust("S", "A.arthro", "--side right").exit_code, 0);
+  const std::string first = ReadWholeFile(archive);
+  const ProgramResult refused = Adjust("S", "A.arthro", "--side left");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("this scene exists"), std::string::npos) << refused.err;
+  EXPECT_EQ(ReadWholeFile(archive), first);
+  const ProgramResult replaced = Adjust("S", "A.arthro", "--side left --overwrite");
+  EXPECT_EQ(replaced.exit_code, 0) << replaced.err;
+  EXPECT_EQ(LoadScene(archive).scene.side, BodySide::kLeft);
+}
+
 TEST_F(AdjustJob, RefusesInOneSentenceAndWritesNothing) {
   for (const char* flags : {"", "--crop 300,0,200,100", "--length-mm 10", "--medial 1,1:50,1",
                             "--up 5,5:5,5", "--crop 1,2,3"}) {

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/background_worker.h"
+#include "simulation/device/live/release_devices.h"
 
 namespace arthro::simulation {
 namespace {
@@ -100,6 +101,26 @@ TEST_F(ReleaseOnCrashDeathTest, AWriterThatIsBlockedDoesNotKeepTheProgramAlive) 
         WaitForDeath();
       },
       testing::KilledBySignal(SIGTERM), "^$");
+}
+
+// Only the device of the moment is asked; its writer is not waited for.
+TEST(ReleaseDevices, AsksTheDevicesThatThereAre) {
+  class Counted final : public Releasable {
+   public:
+    void Release() noexcept override { ++asked; }
+    bool IsReleased() const noexcept override { return false; }
+    std::atomic<int> asked{0};
+  };
+  const auto device = std::make_shared<Counted>();
+  ReleaseDevices();
+  {
+    const ReleaseOnCrash release({device});
+    EXPECT_EQ(device->asked, 0);
+    ReleaseDevices();
+    EXPECT_EQ(device->asked, 1);
+  }
+  ReleaseDevices();
+  EXPECT_EQ(device->asked, 1) << "it is no longer held";
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, EverySignalDeathTest,
