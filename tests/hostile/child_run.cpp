@@ -25,8 +25,13 @@ void Limit(decltype(RLIMIT_CPU) what, rlim_t value) {
                                 const std::vector<char*>& environment, const std::string& out,
                                 const std::string& err) {
   ::setpgid(0, 0);
+  // A test that runs in the background of a shell has some of them ignored, and so would the
+  // program.
+  for (const int signal : {SIGINT, SIGQUIT, SIGHUP, SIGTERM, SIGPIPE}) ::signal(signal, SIG_DFL);
   const int in_file = ::open("/dev/null", O_RDONLY);
-  const int out_file = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int out_file = command.out_file >= 0
+                           ? command.out_file
+                           : ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int err_file = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   ::dup2(in_file, 0);
   ::dup2(out_file, 1);
@@ -89,7 +94,7 @@ ChildRun RunChild(const ChildCommand& command,
   };
   run.cpu_s = time(usage.ru_utime) + time(usage.ru_stime);
   run.peak_mb = 1024e-6 * static_cast<double>(usage.ru_maxrss);
-  run.out = ReadWholeFile(out);
+  if (command.out_file < 0) run.out = ReadWholeFile(out);
   run.err = ReadWholeFile(err);
   return run;
 }

@@ -17,6 +17,7 @@ struct ChildCommand {
   double cpu_s = 60;    // SIGXCPU ends it
   double wall_s = 600;  // SIGKILL ends it; only for what waits for ever
   std::size_t address_bytes = std::size_t{6} << 30;  // 0: no limit
+  int out_file = -1;  // descriptor for standard output in place of a file of `scratch`
 };
 
 struct ChildRun {

@@ -45,6 +45,7 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
+  pid_t number() const { return process_; }
   void Send(int signal) const {
     if (process_ > 0) ::kill(process_, signal);
   }
