@@ -59,7 +59,7 @@ struct RecordedAttempt {
   std::vector<LogSource> hands;
   std::vector<AttemptFrame> frames;
   std::vector<AttemptEvent> events;
-  std::vector<TrackPiece> track;  // of tissue (track/tissue_track.h); empty: it was not recorded
+  std::vector<TrackPiece> track;  // tissue (track/tissue_track.h); empty: it was not recorded
   std::string torn;               // a sentence where the log was cut short; empty: it is complete
   std::string track_fault;        // a sentence where pieces of tissue are damaged; empty: none is
 };

@@ -55,7 +55,7 @@ struct LoggedBody {
 struct DeviceLogContent {
   std::vector<LogSource> sources;
   std::vector<LoggedBody> attempt;  // in the order of the file
-  std::vector<LoggedBody> pieces;   // of tissue, in the order of the file
+  std::vector<LoggedBody> pieces;   // pieces of tissue, in the order of the file
   long damaged_pieces = 0;          // left out
   std::string bodies;
   std::vector<LogRecord> records;  // in order of time, without the end

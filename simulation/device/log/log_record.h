@@ -36,7 +36,7 @@ enum class LogKind : std::uint8_t {
   kAttempt,
   kFrame,
   kEvent,
-  kPiece,  // of tissue; it has a block of its own
+  kPiece,  // piece of tissue, which has a block of its own
 };
 
 // State of a hand after a report. Joints, push and turn, which the servo does not see, are kept as

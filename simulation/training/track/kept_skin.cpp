@@ -16,7 +16,7 @@ namespace arthro::simulation {
 namespace {
 
 constexpr double kLevels = std::numeric_limits<std::uint16_t>::max();
-constexpr double kRoom = 0.1;        // of the extent, on each side
+constexpr double kRoom = 0.1;        // share of the extent, on each side
 constexpr double kLeastRoom = 1e-3;  // m
 
 using Triangle = std::array<int, 3>;

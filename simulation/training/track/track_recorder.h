@@ -1,6 +1,6 @@
-// Records the tissue track of an attempt that runs: the skin of each tissue that has moved, 15
-// times a second at most, so that a look back shows it without simulating anything again. Nothing
-// is recorded of tissue that rests. Steps, metrics and score do not read the track.
+// Records the tissue track of an attempt that runs: the skin of each tissue that has moved, at
+// 15 Hz at most, so that a look back shows it without simulating anything again. Nothing is
+// recorded of tissue that rests. Steps, metrics and score do not read the track.
 //
 // A vertex that has moved less than kTrackStill since it was recorded stays as it was, as the live
 // picture hardly follows it; tissue that has come to rest is recorded once more, exactly.
@@ -29,7 +29,7 @@ class TrackRecorder {
     std::uint64_t shape = 0;               // looked at last
     std::shared_ptr<const BodySkin> skin;  // the same
     std::optional<KeptSkin> kept;          // in the track; none: at rest since the begin
-    std::vector<glm::dvec3> places;        // as the track shows them
+    std::vector<glm::dvec3> places;        // shown by the track
     bool is_exact = true;                  // to the last bit of the skin
     int changes = 0;                       // since it was recorded whole
   };
