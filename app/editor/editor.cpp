@@ -14,6 +14,7 @@
 #include "app/editor/editor_input.h"
 #include "app/editor/editor_settings.h"
 #include "app/editor/every_step.h"
+#include "app/editor/lookback_view.h"
 #include "app/editor/marks/cue_marks.h"
 #include "app/editor/panels/panels.h"
 #include "app/editor/panorama_clicks.h"
@@ -421,10 +422,11 @@ class Editor {
       return LessonPagePanel(
           ui, state_,
           {0, layout.picture.y, layout.overview.x + layout.overview.width, layout.picture.height});
-    DrawPictures(ui, layout);
-    ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
-    DebriefSide(ui, state_, layout.side);
-    DebriefPlots(ui, state_, layout.overview);
+    Layout drawn = layout;
+    drawn.picture = LookbackAreasOf(layout, ExpertFrame(state_) != nullptr, ui.scale).own;
+    drawn.shows_overview = false;
+    DrawPictures(ui, drawn);
+    LookbackView(ui, state_, pictures_, layout);
   }
 
   void Scene(Ui& ui, const Layout& layout) {

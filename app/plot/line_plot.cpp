@@ -111,6 +111,19 @@ class Drawing {
     }
   }
 
+  // Highest baseline for the words of the divisions that crosses no limit and none of their words.
+  double DivisionBaseline() const {
+    constexpr double kAbove = 11, kBelow = 3, kLimitWords = 16;  // px
+    double baseline = kTop + kAbove;
+    for (std::size_t i = 0; i < plot_.limits.size(); ++i)
+      for (const PlotLine& limit : plot_.limits) {
+        const double line = y_.At(limit.at);
+        if (baseline + kBelow > line - kLimitWords && baseline - kAbove < line + kBelow)
+          baseline = line + kBelow + kAbove;
+      }
+    return baseline;
+  }
+
   void DrawGrid() {
     const int across = static_cast<int>((plot_.width - kLeft - kRight) / 70);
     const int upward = static_cast<int>((plot_.height - kTop - kBottom) / 34);
@@ -138,7 +151,7 @@ class Drawing {
           plot_.height - kBottom);
       const double width = TextWidth(division.words, kFont);
       if (x < last || x + 4 + width > plot_.width) continue;
-      Text(x + 4, kTop + 11, kFont, "start", "#555555", division.words);
+      Text(x + 4, DivisionBaseline(), kFont, "start", "#555555", division.words);
       last = x + 8 + width;
     }
     for (const PlotLine& limit : plot_.limits) {

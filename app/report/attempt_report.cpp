@@ -23,6 +23,13 @@ constexpr const char* kStyle =
     "tr{page-break-inside:avoid}td.number{white-space:nowrap}\n"
     "svg{max-width:100%;height:auto;page-break-inside:avoid}\n"
     ".outcome{border:1.5px solid #222;padding:.5em .8em;margin:.8em 0;font-weight:bold}\n"
+    // Figures break between pages as words do.
+    ".pictures{orphans:1;widows:1}"
+    "figure{display:inline-block;vertical-align:top;margin:0 1.2% .6em 0;width:31.5%;"
+    "page-break-inside:avoid}\n"
+    "figure img{width:100%;display:block;box-sizing:border-box;background:#000}"
+    "figcaption{font-size:11px;padding:.2em 0}.fault img{border:3px solid #a00000}\n"
+    ".criteria td:nth-child(-n+4){white-space:nowrap}\n"
     ".missed{font-weight:bold}.small{font-size:11px;color:#444}\n"
     "@media print{body{margin:0;padding:0;max-width:none}}\n";
 
@@ -78,10 +85,25 @@ std::string GroupWords(const AttemptReport& report, const std::string& metric,
   return words;
 }
 
-// Heads the columns of a table; the group has one where there is a group.
+// Value of the expert; empty where the expert has none.
+std::string ExpertWords(const AttemptReport& report, const std::string& metric,
+                        const std::string& part, const std::string& unit) {
+  for (const MetricRow& row : report.expert)
+    if (row.name == metric && row.part == part && row.value) return ValueWords(row.value, unit);
+  return "";
+}
+
+// Puts what others reached behind the value: the group and the expert have a column each where
+// there are such.
+void AddOthers(const AttemptReport& report, Cells& cells, const std::string& group,
+               const std::string& expert) {
+  auto at = cells.begin() + 2;
+  if (!report.group.empty()) at = cells.insert(at, group) + 1;
+  if (!report.expert.empty()) cells.insert(at, expert);
+}
+
 Cells Head(const AttemptReport& report, Cells cells) {
-  if (!report.group.empty())
-    cells.insert(cells.begin() + 2, fmt::format("Middle half of {}", report.group));
+  AddOthers(report, cells, fmt::format("Middle half of {}", report.group), "Expert");
   return cells;
 }
 
@@ -97,12 +119,13 @@ std::string CriteriaOf(const AttemptReport& report) {
                     : criterion.value ? "✗ not met"
                                       : "✗ not measured, so not met",
                     criterion.source});
-    if (!report.group.empty())
-      rows.back().insert(rows.back().begin() + 2,
-                         GroupWords(report, criterion.metric, criterion.part, unit));
+    AddOthers(report, rows.back(), GroupWords(report, criterion.metric, criterion.part, unit),
+              ExpertWords(report, criterion.metric, criterion.part, unit));
   }
-  return Table(Head(report, {"Criterion", "Value", "Limit", "Result", "Source of the limit"}),
-               rows);
+  return "<div class=\"criteria\">" +
+         Table(Head(report, {"Criterion", "Value", "Limit", "Result", "Source of the limit"}),
+               rows) +
+         "</div>\n";
 }
 
 std::string MetricsOf(const AttemptReport& report) {
@@ -110,9 +133,8 @@ std::string MetricsOf(const AttemptReport& report) {
   for (const MetricRow& metric : report.attempt.metrics) {
     rows.push_back({MetricWords(metric.name, metric.part), ValueWords(metric.value, metric.unit),
                     metric.why_none});
-    if (!report.group.empty())
-      rows.back().insert(rows.back().begin() + 2,
-                         GroupWords(report, metric.name, metric.part, metric.unit));
+    AddOthers(report, rows.back(), GroupWords(report, metric.name, metric.part, metric.unit),
+              ExpertWords(report, metric.name, metric.part, metric.unit));
   }
   return Table(Head(report, {"Metric", "Value", "Reason for a missing value"}), rows);
 }
@@ -152,6 +174,8 @@ std::string AttemptPage(const AttemptReport& report) {
     html += Heading("Criteria") + CriteriaOf(report);
   }
   if (const std::string steps = StepsSvg(report); !steps.empty()) html += Heading("Steps") + steps;
+  if (!report.pictures.empty())
+    html += Heading("Pictures of the scope") + PicturesHtml(report.pictures, !report.track.empty());
   if (!report.frames.empty()) {
     html += Heading("Force") + ForceSvg(report);
     if (!report.targets.empty()) html += Heading("Centring") + CentringSvg(report);

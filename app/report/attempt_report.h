@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "app/records/attempts/attempt_record.h"
+#include "app/report/report_picture.h"
 #include "simulation/training/observe/attempt_frame.h"
+#include "simulation/training/track/track_piece.h"
 
 namespace arthro::app {
 
@@ -33,6 +35,11 @@ struct AttemptReport {
   std::vector<std::string> targets;  // ids, in the order of the exercise
   std::string group;                 // name of the reference group; empty: none
   std::vector<GroupStanding> standings;
+  // Tissue of the frames, for pictures of a scene; drawn pictures.
+  std::vector<simulation::TrackPiece> track;
+  std::vector<ReportPicture> pictures;
+  // Metrics of an expert's attempt; empty: there is none.
+  std::vector<MetricRow> expert;
 };
 
 inline bool HasExercise(const AttemptReport& report) { return !report.exercise.id.empty(); }

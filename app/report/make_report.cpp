@@ -8,6 +8,7 @@
 
 #include "app/records/attempts/attempts.h"
 #include "app/records/attempts/records_file.h"
+#include "app/records/keeping/expert_attempt.h"
 #include "app/records/keeping/kept_attempt.h"
 #include "app/records/people/reference_groups.h"
 #include "simulation/core/error.h"
@@ -72,11 +73,22 @@ AttemptReport ReportFromRecords(Records& records, const std::string& attempt, st
   report.program = bundle.sessions.at(0).program;
   try {
     SetExercise(report, ExerciseFromJson(report.exercise.json));
-    report.frames = simulation::ReadAttempt(records.folder() / report.attempt.log).frames;
+    auto recording = simulation::ReadAttempt(records.folder() / report.attempt.log);
+    report.frames = std::move(recording.frames);
+    report.track = std::move(recording.track);
   } catch (const Error& fault) {
     notice = fmt::format("the frames are left out: {}", fault.what());
   }
   return report;
+}
+
+void SetExpert(AttemptReport& report, const LoadedScene& loaded, const Exercise& exercise,
+               Records* records) {
+  const auto found = FindExpertFile(loaded, exercise, records, report.attempt.id);
+  if (!found) return;
+  AttemptRecord expert;
+  SetResult(expert, ReadExpert(loaded, exercise, found->file).result);
+  report.expert = std::move(expert.metrics);
 }
 
 void SetGroup(AttemptReport& report, Records& records, const std::string& group) {

@@ -7,6 +7,7 @@
 #include "app/records/store/records.h"
 #include "app/report/attempt_report.h"
 #include "simulation/scene/exercise/exercise.h"
+#include "simulation/scene/files/loaded_scene.h"
 
 namespace arthro::app {
 
@@ -17,6 +18,11 @@ AttemptReport MakeReport(const Exercise& exercise, const simulation::AttemptResu
 // Report of an attempt in the records, with the frames of its log. Where the log cannot be read the
 // frames are missing, and `notice` is a sentence. Throws Error where there is no such attempt.
 AttemptReport ReportFromRecords(Records& records, const std::string& attempt, std::string& notice);
+
+// Sets the metrics of the expert's attempt where there is one (records/keeping/expert_attempt.h).
+// `exercise`: of the scene. Throws Error where it cannot be read.
+void SetExpert(AttemptReport& report, const LoadedScene& loaded, const Exercise& exercise,
+               Records* records);
 
 // Sets the standing of each metric in a reference group of the report's exercise. Throws Error with
 // the groups that there are.

@@ -26,7 +26,7 @@ bool LiveTissues::Show(const simulation::WorldPicture& world, std::span<const Ti
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     const simulation::BodyPicture& body = world.bodies[i];
     Shown& shown = shown_[i];
-    if (body.skin == nullptr ||
+    if (body.skin == nullptr || static_cast<std::size_t>(body.tissue) >= tissues.size() ||
         (shown.skin == body.skin && shown.shape == body.shape && shown.has_settled))
       continue;
     const double scale = tissues[static_cast<std::size_t>(body.tissue)].pose.scale;

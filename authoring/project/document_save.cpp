@@ -124,6 +124,7 @@ class Saving {
     for (std::size_t i = 0; i < after_.scene.tissues.size(); ++i) SaveTissue(i);
     SaveFootage();
     SaveLens();
+    SaveExerciseFiles();
     // Before the sort, so that the files of the backup are kept.
     if (options_.keeps_backup) KeepBackup(folder_);
     const WrittenFiles unused = SortWrittenFiles();
@@ -293,6 +294,23 @@ class Saving {
       name = writer_.Write(fresh, [&](const fs::path& to) { WriteLens(to, *after_.lens); });
     }
     Note(name, nullptr);
+  }
+
+  // Pictures without what they say about a camera, and recordings as they are: they name nobody.
+  void SaveExerciseFiles() {
+    const auto clean = [](const fs::path& source) {
+      const auto bytes = CleanCopy(source, ReadColourImage(source));
+      return bytes ? *bytes : ReadWholeFile(source);
+    };
+    const auto as_it_is = [](const fs::path& source) { return ReadWholeFile(source); };
+    const auto write = [](const fs::path& to, const std::string& bytes) {
+      WriteAtomically(to, bytes);
+    };
+    for (const ExerciseFile& file : ExerciseFilesOf(after_.scene))
+      if (file.is_picture)
+        SaveFromFile(file.key, *file.name, nullptr, clean, write);
+      else
+        SaveFromFile(file.key, *file.name, nullptr, as_it_is, write);
   }
 
   void SaveFootage() {

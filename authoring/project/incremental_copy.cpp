@@ -92,6 +92,7 @@ void IncrementalCopy::Write(const Document& document) {
     keep(next.scene.tissues[i].surface, i < next.surfaces.size() ? next.surfaces[i] : nullptr);
     keep(next.scene.tissues[i].mesh, nullptr);
   }
+  for (const ExerciseFile& file : ExerciseFilesOf(next.scene)) keep(*file.name, nullptr);
 
   // Nothing but values has changed: the files stay.
   const auto is_written = [&](const fs::path& name) {
@@ -107,7 +108,7 @@ void IncrementalCopy::Write(const Document& document) {
 
   SaveOptions options;
   options.packs_quickly = true;
-  const Document saved = SaveDocument(next, folder_, options);
+  Document saved = SaveDocument(next, folder_, options);
   written_ = saved.files;
   std::erase_if(copied_, [&](const std::string& name) {
     std::error_code ignored;
@@ -122,6 +123,10 @@ void IncrementalCopy::Write(const Document& document) {
   if (!document.lens) note(document.scene.scope.lens, saved.scene.scope.lens);
   for (std::size_t i = 0; i < saved.scene.tissues.size(); ++i)
     note(document.scene.tissues[i].mesh, saved.scene.tissues[i].mesh);
+  Scene named = document.scene;
+  const auto before = ExerciseFilesOf(named), after = ExerciseFilesOf(saved.scene);
+  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
+    note(*before[i].name, *after[i].name);
 }
 
 }  // namespace arthro::authoring

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <fmt/format.h>
 
+#include "simulation/core/byte_stream.h"
 #include "simulation/core/error.h"
 
 namespace arthro::simulation {
@@ -13,31 +13,18 @@ namespace {
 
 constexpr auto kLastEvent = EventKind::kFault;
 
-template <class T>
-void Put(std::string& bytes, T value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
 // A text longer than this is cut off; no id is as long.
 constexpr std::size_t kLongestText = 4096;
 
 void PutText(std::string& bytes, std::string_view text) {
   text = text.substr(0, kLongestText);
-  Put(bytes, static_cast<std::uint16_t>(text.size()));
+  PutBytes(bytes, static_cast<std::uint16_t>(text.size()));
   bytes.append(text);
-}
-
-template <class T>
-bool Take(std::string_view& bytes, T& value) {
-  if (bytes.size() < sizeof value) return false;
-  std::memcpy(&value, bytes.data(), sizeof value);
-  bytes.remove_prefix(sizeof value);
-  return true;
 }
 
 bool TakeText(std::string_view& bytes, std::string& text) {
   std::uint16_t size = 0;
-  if (!Take(bytes, size) || bytes.size() < size) return false;
+  if (!TakeBytes(bytes, size) || bytes.size() < size) return false;
   text = bytes.substr(0, size);
   bytes.remove_prefix(size);
   return true;
@@ -45,7 +32,7 @@ bool TakeText(std::string_view& bytes, std::string& text) {
 
 bool TakeEvent(std::string_view bytes, AttemptEvent& event) {
   std::uint8_t kind = 0;
-  if (!Take(bytes, event.t) || !Take(bytes, kind) || !Take(bytes, event.value) ||
+  if (!TakeBytes(bytes, event.t) || !TakeBytes(bytes, kind) || !TakeBytes(bytes, event.value) ||
       !TakeText(bytes, event.step) || !TakeText(bytes, event.target) ||
       !TakeText(bytes, event.note))
     return false;
@@ -85,11 +72,16 @@ void AttemptLog::Add(const AttemptFrame& frame) {
 
 void AttemptLog::Add(const AttemptEvent& event) {
   body_.clear();
-  Put(body_, event.t);
-  Put(body_, static_cast<std::uint8_t>(event.kind));
-  Put(body_, event.value);
+  PutBytes(body_, event.t);
+  PutBytes(body_, static_cast<std::uint8_t>(event.kind));
+  PutBytes(body_, event.value);
   for (const std::string* text : {&event.step, &event.target, &event.note}) PutText(body_, *text);
   Append(LogKind::kEvent, event.t, body_);
+}
+
+void AttemptLog::Add(const TrackPiece& piece) {
+  if (piece.bytes.size() <= kLargestPiece)
+    file_.Write(PieceBlock(std::llround(1e9 * piece.t), piece.bytes));
 }
 
 void AttemptLog::Close() {
@@ -112,6 +104,15 @@ RecordedAttempt AttemptOf(const DeviceLogContent& log, const std::filesystem::pa
   RecordedAttempt attempt;
   attempt.hands = log.sources;
   attempt.torn = log.torn;
+  if (log.damaged_pieces > 0)
+    attempt.track_fault = fmt::format(
+        "{} of {} records of the tissue are damaged, so tissue is not shown everywhere as it was; "
+        "take another copy of the file",
+        log.damaged_pieces, log.damaged_pieces + static_cast<long>(log.pieces.size()));
+  attempt.track.reserve(log.pieces.size());
+  for (const LoggedBody& piece : log.pieces)
+    attempt.track.push_back(
+        {1e-9 * static_cast<double>(piece.t_ns), log.bodies.substr(piece.begin, piece.size)});
   FrameDecoder decoder;
   for (const LoggedBody& body : log.attempt) {
     const std::string_view bytes = std::string_view(log.bodies).substr(body.begin, body.size);

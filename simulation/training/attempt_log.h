@@ -13,6 +13,7 @@
 #include "simulation/device/log/log_format.h"
 #include "simulation/training/observe/frame_code.h"
 #include "simulation/training/steps/attempt_event.h"
+#include "simulation/training/track/track_piece.h"
 
 namespace arthro::simulation {
 
@@ -30,6 +31,8 @@ class AttemptLog {
   // Frames and events in the order of their times. They throw nothing for a full disk: Close does.
   void Add(const AttemptFrame& frame);
   void Add(const AttemptEvent& event);
+  // A piece larger than kLargestPiece is left out.
+  void Add(const TrackPiece& piece);
   bool has_failed() const noexcept { return file_.has_failed(); }
   // Writes the rest and the end. Throws Error(kFile) where a write failed; what was written before
   // can be read.
@@ -56,7 +59,9 @@ struct RecordedAttempt {
   std::vector<LogSource> hands;
   std::vector<AttemptFrame> frames;
   std::vector<AttemptEvent> events;
-  std::string torn;  // a sentence where the log was cut short; empty: it is complete
+  std::vector<TrackPiece> track;  // tissue (track/tissue_track.h); empty: it was not recorded
+  std::string torn;               // a sentence where the log was cut short; empty: it is complete
+  std::string track_fault;        // a sentence where pieces of tissue are damaged; empty: none is
 };
 
 // Returns true for a log that holds an attempt, and not the samples of hands.

@@ -43,7 +43,7 @@ const std::map<std::string, Names> kAppMayInclude = {
     {"app/about", {}},
     {"app/plot", {}},
     {"app/records", {}},
-    {"app/report", {"app/plot", "app/records"}},
+    {"app/report", {"app/plot", "app/records", "app/view"}},
     {"app/recording", {}},
     {"app/view", {}},
     {"app/platform", {"app/recording"}},

@@ -21,6 +21,7 @@
 #include "app/records/keeping/kept_attempt.h"
 #include "app/report/assessment_file.h"
 #include "app/report/attempt_words.h"
+#include "app/report/draw_pictures.h"
 #include "app/report/make_report.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -43,7 +44,7 @@ struct AssessJob {
   fs::path scene, attempt, table, csv, page, json;
   std::string exercise, group;
   std::shared_ptr<RecordsPlace> place;
-  bool observes_anew = false, requires_pass = false;
+  bool observes_anew = false, requires_pass = false, leaves_pictures = false;
   simulation::SessionOptions options;
   simulation::MetricLimits limits;
 };
@@ -91,6 +92,8 @@ simulation::RecordedAttempt Observed(const AssessJob& job, const LoadedScene& lo
   }
   attempt = simulation::AttemptOf(log, job.attempt);
   if (!attempt.torn.empty()) Note("warning", job.attempt.string() + ": " + attempt.torn);
+  if (!attempt.track_fault.empty())
+    Note("warning", job.attempt.string() + ": " + attempt.track_fault);
   head = simulation::AttemptHeadOf(attempt.head, job.attempt);
   if (job.observes_anew)
     simulation::ObserveAnew(loaded, exercise, attempt.frames);
@@ -111,6 +114,7 @@ AttemptReport AssessExercise(const AssessJob& job, const LoadedScene& loaded,
       attempt, exercise, simulation::SurfaceNames(loaded.scene),
       records ? GroupValuesOf(*records, hash) : std::vector<simulation::GroupValues>(), job.limits);
   AttemptReport report = MakeReport(exercise, result, std::move(attempt.frames));
+  report.track = std::move(attempt.track);
   report.attempt.id = head.attempt;
   report.attempt.scene = loaded.scene.title;
   report.attempt.started = head.started;
@@ -120,7 +124,24 @@ AttemptReport AssessExercise(const AssessJob& job, const LoadedScene& loaded,
   report.rig = head.rig;
   report.program = head.program;
   if (records) SetGroup(report, *records, job.group);
+  try {
+    SetExpert(report, loaded, exercise, records.get());
+  } catch (const Error& fault) {
+    Note("note", fmt::format("the expert's attempt is left out: {}", fault.what()));
+  }
   return report;
+}
+
+// A report without pictures is one as well.
+void DrawPictures(const LoadedScene& loaded, AttemptReport& report) {
+  try {
+    const auto moments = MomentsOf(report.attempt, report.frames);
+    if (moments.empty()) return;
+    report.pictures =
+        DrawMoments(loaded, ShippedLooks(loaded.scene), report.frames, report.track, moments);
+  } catch (const Error& fault) {
+    Note("note", fmt::format("the report has no pictures: {}", fault.what()));
+  }
 }
 
 AttemptReport AssessHands(const AssessJob& job, const LoadedScene& loaded,
@@ -161,6 +182,7 @@ void Run(const AssessJob& job) {
   AttemptReport report =
       job.exercise.empty() ? AssessHands(job, loaded, bytes) : AssessExercise(job, loaded, bytes);
   if (report.program.empty()) report.program = fmt::format("arthroscene {}", Version());
+  if (!job.page.empty() && !job.leaves_pictures) DrawPictures(loaded, report);
   // How a person worked is for that person.
   if (!table.empty()) WriteAtomically(table, MetricTable(report), Access::kPrivate);
   if (!job.page.empty()) WriteAtomically(job.page, AttemptPage(report), Access::kPrivate);
@@ -206,6 +228,8 @@ void AddAssessJob(CLI::App& program) {
                 {"a page", FileForm::kTable, kAttemptPageHead});
   files->Output(job->add_option("--json", own->json, "Report as JSON; - is standard output."),
                 {"a report", FileForm::kJson, "arthroscene.assessment/"});
+  job->add_flag("--no-pictures", own->leaves_pictures,
+                "Leave pictures of the scope off the page. They need OpenGL, in software too.");
   job->add_option("--reference", own->group,
                   "Reference group of the records: its limits hold, and the report shows its "
                   "values.")

@@ -12,6 +12,7 @@
 #include "app/panels/fixed_window.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/steps/lessons/lessons_step.h"
 #include "app/steps/practice/hand_motion.h"
 #include "app/view/overview/overview.h"
 #include "simulation/core/units.h"
@@ -35,15 +36,20 @@ bool WasClicked() {
          io.MouseDragMaxDistanceSqr[0] <= kSlack * kSlack;
 }
 
+// The author holds the scope: its pose stands below the picture.
+bool HasStrip(const EditorState& state) {
+  return !state.practice && state.steps.lessons->page != LessonPage::kDebrief;
+}
+
 // The edge of the square picture in its area.
-float PictureEdge(const Ui& ui, bool practice, const Area& area) {
-  const float strip = practice ? 0 : ui.Px(kStripHeight);
+float PictureEdge(const Ui& ui, bool has_strip, const Area& area) {
+  const float strip = has_strip ? ui.Px(kStripHeight) : 0;
   return std::floor(
       std::max(16.0f, std::min(area.width - ui.Px(16), area.height - strip - ui.Px(16))));
 }
 
 // Pictures are black in every theme, so their words are bright.
-void WordsOverPicture(Ui& ui, const char* words) {
+void WordsOverPicture(Ui& ui, const std::string& words) {
   ImGui::PushStyleColor(ImGuiCol_Text, kQuiet);
   ImGui::TextUnformatted(ui.In(words).c_str());
   ImGui::PopStyleColor();
@@ -155,14 +161,14 @@ void DrawHandle(Ui& ui, const Area& area, const glm::dvec2& place) {
 }  // namespace
 
 int ScopePictureSize(const Ui& ui, const EditorState& state, const Area& area) {
-  return static_cast<int>(PictureEdge(ui, state.practice.has_value(), area));
+  return static_cast<int>(PictureEdge(ui, HasStrip(state), area));
 }
 
 PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned texture) {
   const FixedWindow window(ui, "picture", area, kPictureWindow);
-  const bool practice = state.practice.has_value();
-  const float edge = PictureEdge(ui, practice, area);
-  const float strip = practice ? 0 : ui.Px(kStripHeight);
+  const bool has_strip = HasStrip(state);
+  const float edge = PictureEdge(ui, has_strip, area);
+  const float strip = has_strip ? ui.Px(kStripHeight) : 0;
   const ImVec2 low = {std::floor(area.x + 0.5f * (area.width - edge)),
                       std::floor(area.y + std::max(0.5f * (area.height - strip - edge), 0.0f))};
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -177,7 +183,7 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
     draw->AddText({low.x + 0.5f * (edge - size.x), low.y + 0.5f * (edge - size.y)}, kQuiet,
                   shown.c_str());
   }
-  if (!practice)
+  if (has_strip)
     CornerButtons(ui, state, area,
                   {state.views.shown == ViewLayout::Shown::kBoth ? "view-scope" : "view-both"});
   PictureInput input;
@@ -202,11 +208,34 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
   if (input.hovered) input.wheel = io.MouseWheel;
   input.shift = io.KeyShift;
   input.ctrl = io.KeyCtrl;
-  if (!practice) {
+  if (has_strip) {
     PoseStrip(ui, state, {area.x + ui.Px(12), area.y + area.height - strip + ui.Px(2)},
               area.width - ui.Px(24));
   }
   return input;
+}
+
+void LabelledPicture(Ui& ui, const Area& area, unsigned texture, const std::string& name,
+                     const std::string& words) {
+  const FixedWindow window(ui, name.c_str(), area, kPictureWindow);
+  const float edge = PictureEdge(ui, false, area);
+  const ImVec2 low = {std::floor(area.x + 0.5f * (area.width - edge)),
+                      std::floor(area.y + 0.5f * (area.height - edge))};
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, 0xFF000000);
+  if (texture != 0) OpaqueImage(draw, texture, low, {low.x + edge, low.y + edge});
+  ImGui::SetCursorScreenPos(low);
+  ImGui::Dummy({edge, edge});
+  RecordItem(ui, name, true, "", WidgetKind::kPicture);
+  if (words.empty()) return;
+  // A shade keeps the words readable where they reach over the picture.
+  const ImVec2 corner = {area.x + ui.Px(12), area.y + ui.Px(8)};
+  const float width = ui.WidthOf(words), height = ImGui::GetTextLineHeight();
+  draw->AddRectFilled({corner.x - ui.Px(4), corner.y - ui.Px(2)},
+                      {corner.x + width + ui.Px(4), corner.y + height + ui.Px(3)}, 0xC0000000,
+                      ui.Px(3));
+  ImGui::SetCursorScreenPos(corner);
+  WordsOverPicture(ui, words);
 }
 
 OverviewInput OverviewPicture(Ui& ui, EditorState& state, const Area& area, unsigned texture,

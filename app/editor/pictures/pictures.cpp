@@ -19,6 +19,7 @@
 #include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/landmark_mode.h"
 #include "app/steps/tissue/tissue_balls.h"
+#include "app/view/attempt_picture.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
 #include "simulation/scope/window_lens.h"
@@ -74,33 +75,10 @@ Picture AuthorsPicture(const EditorState& state, const simulation::ScopeOptics& 
   return picture;
 }
 
-// Picture of an attempt that is looked back at, from the lens as it was.
-Picture AttemptPicture(const simulation::AttemptFrame& frame,
-                       const simulation::ScopeOptics& optics) {
-  const simulation::ToolFrame& scope = frame.tool[0];
-  const simulation::ToolFrame& instrument = frame.tool[1];
-  const glm::dvec3 axis(scope.axis);
-  const simulation::RodPose pose{std::atan2(-axis.y, std::hypot(axis.x, axis.z)),
-                                 std::atan2(axis.x, axis.z), scope.roll, scope.depth};
-  Picture picture = PictureFromPose(pose, frame.view_angle, optics.field_of_view, frame.head_roll);
-  picture.view.tip = glm::dvec3(frame.lens);
-  picture.lens = optics.lens;
-  picture.camera = optics.camera;
-  picture.relief = kUsualRelief;
-  picture.instrument = InstrumentView{{frame.incision_spacing, 0, 0},
-                                      glm::dvec3(instrument.drawn_tip),
-                                      instrument.roll,
-                                      frame.instrument,
-                                      frame.opening};
-  picture.disturbances.haze = frame.haze;
-  picture.disturbances.fog = frame.fog;
-  return picture;
-}
-
 Picture ShownPicture(const EditorState& state, const simulation::ScopeOptics& optics) {
   Picture picture;
   if (const simulation::AttemptFrame* frame = DebriefFrame(state)) {
-    picture = AttemptPicture(*frame, optics);
+    picture = PictureOfFrame(*frame, optics);
   } else if (const auto& practice = state.practice) {
     const simulation::Snapshot& snapshot = practice->snapshot();
     picture = PictureOf(snapshot, practice->seen_from(), practice->instrument_kind(), optics,
@@ -226,18 +204,42 @@ void Pictures::TakeCuts(const authoring::Document& document) {
   }
 }
 
-// Tissues that live are shown as they are; when the session ends, as the document has them.
+// Tissues that live, or that are looked back at, are shown as they are; after that, as the document
+// has them.
 void Pictures::TakeLiveTissues(const EditorState& state) {
   const simulation::Practice* live = LiveSession(state);
-  if (live_ != live) {
+  const simulation::WorldPicture* world = live != nullptr ? live->tissues() : DebriefTissues(state);
+  const void* source = live != nullptr ? static_cast<const void*>(live) : world;
+  if (live_ != source) {
     if (!live_tissues_.empty()) surfaces_.clear();  // they are shown anew
-    live_ = live;
+    live_ = source;
     live_tissues_.Forget();
     TakeTissues(state);
   }
-  if (live == nullptr || live->tissues() == nullptr) return;
-  if (live_tissues_.Show(*live->tissues(), state.document().scene.tissues, scope_, &overview_))
+  if (world != nullptr &&
+      live_tissues_.Show(*world, state.document().scene.tissues, scope_, &overview_))
     changed_ = true;
+}
+
+// Shows tissues of an attempt in the scope's picture alone; those that it does not name are as the
+// document has them.
+void Pictures::ShowInAttempt(const EditorState& state, const simulation::WorldPicture* world) {
+  for (std::size_t i = 0; i < shown_cuts_.size(); ++i) ShowInScope(static_cast<int>(i));
+  live_tissues_.Forget();
+  if (world != nullptr) live_tissues_.Show(*world, state.document().scene.tissues, scope_, nullptr);
+}
+
+// The expert's picture is drawn before the trainee's, with the tissues of the expert.
+void Pictures::DrawExpert(const EditorState& state, int pixels) {
+  if (!expert_picture_) return expert_.reset();
+  ShowInAttempt(state, ExpertTissues(state));
+  Picture picture = *expert_picture_;
+  picture.rays = picture_.rays;
+  picture.samples = picture_.samples;
+  picture.features = picture_.features;
+  scope_.Render(picture, pixels);
+  expert_.emplace(scope_.ReadPixels());
+  ShowInAttempt(state, DebriefTissues(state));
 }
 
 void Pictures::Take(const EditorState& state) {
@@ -265,13 +267,19 @@ bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
   Picture picture = ShownPicture(state, TakeOptics(state.document()));
   if (state.practice && picture.instrument)
     picture.instrument = live_tissues_.Settled(*picture.instrument);
+  std::optional<Picture> expert;
+  if (const simulation::AttemptFrame* frame = ExpertFrame(state))
+    expert = PictureOfFrame(*frame, TakeOptics(state.document()));
+  const bool has_other_expert = expert.has_value() != expert_picture_.has_value() ||
+                                (expert && expert_picture_ && !Same(*expert, *expert_picture_));
+  expert_picture_ = expert;
   const bool is_faded = FadeOf(state) > 0 && outlined_ < 0;
   // The fluid flows while something moves: villi sway and flecks drift then, and a picture at rest
   // stays as it is.
   const bool flows = state.practice && !picture.disturbances.is_moving();
   if (flows) picture.disturbances.time = flow_.time;
-  const bool has_changed =
-      changed_ || !Same(picture, picture_) || full_size_ != size || is_faded != bare_.has_value();
+  const bool has_changed = changed_ || has_other_expert || !Same(picture, picture_) ||
+                           full_size_ != size || is_faded != bare_.has_value();
   if (flows) picture.disturbances.time = flow_.Advance(state.practice->snapshot().t, has_changed);
   picture_ = picture;
   full_size_ = size;
@@ -293,6 +301,7 @@ bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
   if (rays == 2) picture_.samples = kStillSamples;
   const int pixels = static_cast<int>(std::lround(scale * size));
   DrawBare(state, pixels);
+  DrawExpert(state, pixels);
   const bool is_measured = rays == 1 && state.steps.practice->budget->is_shown;
   scope_.SetTimed(is_measured);
   scope_.Render(picture_, pixels);

@@ -63,6 +63,8 @@ class Pictures {
   unsigned scope_texture() const { return has_picture_ ? scope_.TextureId() : 0; }
   // The last picture without the chosen tissue; 0 where that is not faded.
   unsigned bare_texture() const { return bare_ ? bare_->id() : 0; }
+  // The expert's picture at the same step; 0 where no expert is looked back at.
+  unsigned expert_texture() const { return has_picture_ && expert_ ? expert_->id() : 0; }
   // The scope's picture, read from the graphics card.
   ColourImage ReadScope() const { return scope_.ReadPixels(); }
   int scope_edge() const { return drawn_size_; }       // px of that texture
@@ -96,6 +98,8 @@ class Pictures {
   // Keeps the picture without the chosen tissue while that is faded.
   void DrawBare(const EditorState& state, int pixels);
   void TakeLiveTissues(const EditorState& state);
+  void ShowInAttempt(const EditorState& state, const simulation::WorldPicture* world);
+  void DrawExpert(const EditorState& state, int pixels);
 
   ArthroscopicView scope_;
   Overview overview_;
@@ -141,11 +145,13 @@ class Pictures {
       shown_cuts_;  // one per tissue; null: whole
   std::string cut_fault_;
   std::optional<PictureTexture> bare_;
+  std::optional<Picture> expert_picture_;  // none: no expert is looked back at
+  std::optional<PictureTexture> expert_;
   std::shared_ptr<const authoring::SurfaceFaults> faults_;    // those that the overview shows
   std::shared_ptr<const std::vector<glm::dvec3>> distances_;  // colours of `coloured_`
-  int coloured_ = -1;  // tissue in the colours of its distances, -1 none
-  int outlined_ = -1;  // tissue that the scope's picture leaves out, -1 none
-  const simulation::Practice* live_ = nullptr;  // whose bodies are shown
+  int coloured_ = -1;           // tissue in the colours of its distances, -1 none
+  int outlined_ = -1;           // tissue that the scope's picture leaves out, -1 none
+  const void* live_ = nullptr;  // identity of the practice or track whose bodies are shown
   LiveTissues live_tissues_;
   int chosen_ = -1, document_number_ = -1, overview_fits_ = 0;
   Picture overview_tools_;  // tools of the last overview

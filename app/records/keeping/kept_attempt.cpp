@@ -104,10 +104,12 @@ void KeptAttempt::StartLog(const AttemptPlan& plan) {
 }
 
 void KeptAttempt::Add(std::span<const simulation::AttemptFrame> frames,
-                      std::span<const simulation::AttemptEvent> events) {
+                      std::span<const simulation::AttemptEvent> events,
+                      std::span<const simulation::TrackPiece> track) {
   if (log_ == nullptr) return;
   for (const simulation::AttemptFrame& frame : frames) log_->Add(frame);
   for (const simulation::AttemptEvent& event : events) log_->Add(event);
+  for (const simulation::TrackPiece& piece : track) log_->Add(piece);
 }
 
 void KeptAttempt::CloseLog() {

@@ -40,9 +40,11 @@ class KeptAttempt {
   KeptAttempt(const KeptAttempt&) = delete;
   KeptAttempt& operator=(const KeptAttempt&) = delete;
 
-  // Frames and events since the last call; both in the order of their times.
+  // Frames, events and pieces of the tissue track since the last call; each in the order of its
+  // times.
   void Add(std::span<const simulation::AttemptFrame> frames,
-           std::span<const simulation::AttemptEvent> events);
+           std::span<const simulation::AttemptEvent> events,
+           std::span<const simulation::TrackPiece> track = {});
 
   // Writes the results; null: no records are reached. Returns "" where the records have them, else
   // a sentence that says where they are. Throws Error where neither records nor outbox take them;

@@ -175,6 +175,17 @@ MetricValues MemberValues(Records& records, const ReferenceGroup& group) {
                   AttemptsThatCount(records, group.exercise, RuleOf(group.rule)));
 }
 
+std::vector<std::string> PassedAttemptsOf(Records& records, const ReferenceGroup& group) {
+  const Counted counted = AttemptsThatCount(records, group.exercise, RuleOf(group.rule));
+  std::vector<std::string> passed;
+  for (const Row& row : records.database().Ask(
+           "SELECT id FROM attempts WHERE exercise = :exercise AND outcome = 'passed' "
+           "ORDER BY started DESC, id",
+           {group.exercise}))
+    if (counted.attempts.contains(TextOf(row[0]))) passed.push_back(TextOf(row[0]));
+  return passed;
+}
+
 std::vector<std::string> UpdateGroupsWithout(Records& records, const std::string& code) {
   std::vector<std::string> names;
   for (const ReferenceGroup& group :

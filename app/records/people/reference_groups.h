@@ -68,6 +68,9 @@ std::vector<ReferenceGroup> ReferenceGroupsAt(Records& records, const std::strin
 using MetricValues = std::map<std::pair<std::string, std::string>, std::vector<double>>;
 MetricValues MemberValues(Records& records, const ReferenceGroup& group);
 
+// Attempts that count for the group now and were passed, the newest first.
+std::vector<std::string> PassedAttemptsOf(Records& records, const ReferenceGroup& group);
+
 // Within a transaction: takes a trainee out of every group's rule and computes these again. A group
 // that is empty then is removed. Returns their names.
 std::vector<std::string> UpdateGroupsWithout(Records& records, const std::string& code);

@@ -49,8 +49,16 @@ void KeepNews(LessonsStep& step, std::span<const simulation::AttemptFrame> frame
   RunningAttempt& running = *step.running;
   const auto& events = running.engine.events();
   if (step.records->attempt)
-    step.records->attempt->Add(frames, std::span(events).subspan(running.kept_events));
+    step.records->attempt->Add(frames, std::span(events).subspan(running.kept_events),
+                               std::span(running.track).subspan(running.kept_pieces));
   running.kept_events = events.size();
+  running.kept_pieces = running.track.size();
+}
+
+// `world`: null: nothing deforms.
+void RecordTissue(RunningAttempt& running, const simulation::WorldPicture* world) {
+  const double t = simulation::kFrameTime * static_cast<double>(running.frames.size());
+  running.recorder.Record(t, world != nullptr ? *world : simulation::WorldPicture(), running.track);
 }
 
 // The practice ends before what watches it.
@@ -64,6 +72,7 @@ void EndAttempt(EditorState& state) {
   finished.trainee = step.records->trainee;
   finished.is_test = step.is_test;
   finished.frames = std::move(running.frames);
+  finished.track = std::make_shared<simulation::TissueTrack>(std::move(running.track));
   finished.result = simulation::ResultOf(
       running.engine,
       simulation::MeasureExercise(finished.frames, running.engine,
@@ -72,7 +81,11 @@ void EndAttempt(EditorState& state) {
   state.practice.reset();
   step.running.reset();
   state.steps.practice->end_attempt = {};
-  if (step.records->attempt) finished.id = step.records->attempt->record().id;
+  if (step.records->attempt) {
+    const AttemptRecord& record = step.records->attempt->record();
+    finished.id = record.id;
+    finished.log = FolderOf(*step.records) / record.log;
+  }
   step.finished = std::move(finished);
   step.debrief = {};
   step.page = LessonPage::kSummary;
@@ -182,6 +195,7 @@ bool FollowAttempt(EditorState& state) {
     running.acts.clear();
     is_changed = true;
   }
+  if (!ended.empty()) RecordTissue(running, state.practice->tissues());
   KeepNews(step, ended);
   const ExerciseSetup& setup = running.engine.exercise().setup;
   state.steps.practice->disturbing.now.haze =

@@ -80,9 +80,18 @@ void ForceBand(Ui& ui, const StripState& strip) {
   const bool is_within = strip.force >= band.x && strip.force <= band.y;
   QuietText(
       ui, fmt::format("Force {:.1f} N, asked for {:.1f} to {:.1f} N", strip.force, band.x, band.y));
-  MarkedBar(ui, "Force asked for", std::min(1.0, strip.force / (1.5 * band.y)),
-            is_within ? kGood : kWarning, band.x / (1.5 * band.y),
-            fmt::format("{:.1f} N", strip.force));
+  const double full = 1.5 * band.y;
+  MarkedBar(ui, "Force asked for", std::min(1.0, strip.force / full), is_within ? kGood : kWarning,
+            band.x / full, fmt::format("{:.1f} N", strip.force));
+  // The band itself lies over the bar, from the mark of its lower end to that of its upper one.
+  constexpr unsigned kBandShade = 0x4050C850;
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const auto at = [&](double force) {
+    return low.x + (high.x - low.x) * static_cast<float>(force / full);
+  };
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled({at(band.x), low.y}, {at(band.y), high.y}, kBandShade);
+  draw->AddLine({at(band.y), low.y}, {at(band.y), high.y}, OnGround(kBright), ui.Px(2));
 }
 
 void Answers(Ui& ui, EditorState& state, const ExerciseStep& step) {
@@ -169,11 +178,14 @@ void Summary(Ui& ui, EditorState& state, const FinishedAttempt& attempt) {
   if (!attempt.started.empty())
     QuietText(ui, fmt::format("Trainee {}, {} UTC, {}", attempt.trainee, TimeWords(attempt.started),
                               attempt.is_test ? "test" : "practice"));
-  if (!attempt.notice.empty()) ColouredText(ui, attempt.notice, kWarning);
+  Notices(ui, attempt);
   if (!attempt.kept.empty())
     ColouredText(ui, attempt.kept, HasUnkeptAttempt(state) ? kBad : kQuiet);
   if (HasUnkeptAttempt(state)) CommandButton(ui, state, "keep-attempt", {ui.Px(170), ui.Px(44)});
   Gap(ui);
+  // The commands stay in sight below the values.
+  const float foot = ui.Px(54);
+  ImGui::BeginChild("values", {0, std::max(ui.Px(80), ImGui::GetContentRegionAvail().y - foot)});
   if (!result.criteria.empty()) {
     Heading(ui, "Criteria");
     Criteria(ui, result);
@@ -184,12 +196,14 @@ void Summary(Ui& ui, EditorState& state, const FinishedAttempt& attempt) {
     if (value.value && value.metric != nullptr)
       Text(ui, fmt::format("{}: {}", MetricWords(std::string(value.metric->id), value.part),
                            ValueOfMetric(std::string(value.metric->id), *value.value)));
-  Gap(ui);
+  ImGui::EndChild();
   CommandButton(ui, state, "repeat-exercise", {ui.Px(150), ui.Px(44)});
   ImGui::SameLine();
   CommandButton(ui, state, "attempt-debrief", {ui.Px(150), ui.Px(44)});
   ImGui::SameLine();
   CommandButton(ui, state, "attempt-report", {ui.Px(150), ui.Px(44)});
+  ImGui::SameLine();
+  CommandButton(ui, state, "use-as-expert", {ui.Px(160), ui.Px(44)});
   ImGui::SameLine();
   CommandButton(ui, state, "trainee-page", {ui.Px(170), ui.Px(44)});
   ImGui::SameLine();

@@ -3,6 +3,7 @@
 // picture in the editor.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,12 +15,14 @@
 #include "simulation/scene/exercise/exercise.h"
 #include "simulation/training/attempt_result.h"
 #include "simulation/training/observe/attempt_frame.h"
+#include "simulation/training/track/tissue_track.h"
 
 namespace arthro::app {
 
 struct Area;
 struct Ui;
 struct CohortBoard;     // instructor/cohort_board.h
+struct Expert;          // lookback/expert.h
 struct LessonRecords;   // keeping/lesson_records.h
 struct RatingBoard;     // instructor/rating_board.h
 struct RunningAttempt;  // running_attempt.h
@@ -32,17 +35,24 @@ struct FinishedAttempt {
   bool is_test = false;
   simulation::AttemptResult result;
   std::vector<simulation::AttemptFrame> frames;
-  std::string id;       // in the records; empty: it is not there
-  std::string started;  // UTC; empty: it has just ended
-  std::string kept;     // sentence about where it is kept
-  std::string notice;   // parts that cannot be shown; empty: none
+  // Tissue of the frames; null: it was not recorded, or in another scene. Shared by copies of this,
+  // since it only remembers what it has read.
+  std::shared_ptr<simulation::TissueTrack> track;
+  std::string id;             // in the records; empty: it is not there
+  std::string started;        // UTC; empty: it has just ended
+  std::string kept;           // sentence about where it is kept
+  bool is_of_scene = true;    // it was made in the scene that is open
+  std::string notice;         // sentences about what cannot be shown, one per line
+  std::filesystem::path log;  // its file beside the records; empty: it was not kept
 };
 
-// A position in the attempt that is looked back at.
+// A position in the attempt that is looked back at, and the expert beside it.
 struct Debrief {
   double at = 0;  // s
   bool plays = false;
   double speed = 1;
+  std::shared_ptr<Expert> expert;  // null: none; shared, since its type is known elsewhere
+  std::string expert_words;        // whose it is, or why there is none
 };
 
 enum class LessonPage { kNone, kStart, kBriefing, kAttempt, kSummary, kDebrief, kInstructor };
@@ -82,10 +92,21 @@ void EndLessons(EditorState& state);
 // Once per frame, after the practice has advanced: observes it and follows the steps. True when
 // something changed.
 bool FollowAttempt(EditorState& state);
+// Opens the look back, with an expert where there is one.
+void OpenDebrief(EditorState& state);
+// Makes the attempt that is shown the recording of an expert that the scene names.
+bool MayBeExpert(const EditorState& state);
+void UseAsExpert(EditorState& state);
 // Once per frame of the window: plays the look back.
 void PlayDebrief(EditorState& state, double seconds);
 // Frame that the look back shows; null: none.
 const simulation::AttemptFrame* DebriefFrame(const EditorState& state);
+// Tissues of that frame, but for those that never moved; null: none was recorded. Valid until the
+// next call.
+const simulation::WorldPicture* DebriefTissues(const EditorState& state);
+// The same of the expert, at the same step; null: there is none.
+const simulation::AttemptFrame* ExpertFrame(const EditorState& state);
+const simulation::WorldPicture* ExpertTissues(const EditorState& state);
 
 // Shows the result of an attempt in the records. Frames that cannot be read, and a scene that is
 // not the one it was made in, leave FinishedAttempt::notice. Throws Error where the records do not
@@ -123,6 +144,8 @@ void InstructorPage(Ui& ui, EditorState& state);                     // the same
 void LessonPagePanel(Ui& ui, EditorState& state, const Area& area);  // instead of the practice's
 // The look back: beside the scope's picture, and in the place of the overview.
 void RatingFields(Ui& ui, EditorState& state);  // inside of the next one
+// Sentences about parts of the attempt that cannot be shown.
+void Notices(Ui& ui, const FinishedAttempt& attempt);
 void DebriefSide(Ui& ui, EditorState& state, const Area& area);
 void DebriefPlots(Ui& ui, EditorState& state, const Area& area);
 

@@ -9,6 +9,7 @@
 #include "simulation/practice/hands/practice.h"
 #include "simulation/training/observe/live_attempt.h"
 #include "simulation/training/steps/step_engine.h"
+#include "simulation/training/track/track_recorder.h"
 
 namespace arthro::app {
 
@@ -21,7 +22,10 @@ struct RunningAttempt {
   simulation::StepEngine engine;
   std::vector<simulation::AttemptFrame> frames;
   std::vector<simulation::TraineeAct> acts;  // acts for the frame to come
-  std::size_t kept_events = 0;               // events that were handed to the log
+  simulation::TrackRecorder recorder;
+  std::vector<simulation::TrackPiece> track;  // pieces of the tissue
+  // Events and pieces that were handed to the log.
+  std::size_t kept_events = 0, kept_pieces = 0;
 };
 
 }  // namespace arthro::app

@@ -27,6 +27,7 @@ constexpr std::string_view kMagic = "ARTHRLOG";
 constexpr std::size_t kBlockHead = 16, kRecordHead = 20;  // bytes
 constexpr std::uint32_t kVersionInHead = 3;   // first version that the checksum of its head covers
 constexpr std::uint32_t kCompleteWishes = 4;  // first version whose wishes are complete
+constexpr std::uint32_t kHasPieces = 5;       // first version with pieces of tissue
 
 std::uint32_t Checksum(std::string_view bytes) noexcept {
   return static_cast<std::uint32_t>(
@@ -154,6 +155,20 @@ bool TakeBody(Taker& taker, DeviceLogContent& log) {
   log.bodies += bytes;
   log.attempt.push_back(body);
   taker = ahead;
+  return true;
+}
+
+// Takes the payload of a piece's block into `log`. Returns false for one without a time.
+bool TakePiece(std::string_view payload, DeviceLogContent& log) {
+  Taker taker(payload);
+  LoggedBody piece;
+  piece.kind = LogKind::kPiece;
+  piece.t_ns = taker.Take<std::int64_t>();
+  if (!taker.is_good()) return false;
+  piece.begin = log.bodies.size();
+  piece.size = taker.left();
+  log.bodies += taker.Bytes(taker.left());
+  log.pieces.push_back(piece);
   return true;
 }
 
@@ -350,7 +365,8 @@ void Append(const LogRecord& record, std::string& payload) {
     case LogKind::kAttempt:
     case LogKind::kFrame:
     case LogKind::kEvent:
-      break;  // AppendBody writes them
+    case LogKind::kPiece:
+      break;  // AppendBody and PieceBlock write them
   }
   const auto size = static_cast<std::uint16_t>(payload.size() - begin - kRecordHead);
   std::memcpy(payload.data() + begin + 2, &size, sizeof size);
@@ -374,6 +390,14 @@ std::string LogBlock(std::string_view payload, std::uint32_t records) {
   Put(block, Checksum(payload));
   Put(block, Checksum(block));
   return block.append(payload);
+}
+
+std::string PieceBlock(std::int64_t t_ns, std::string_view piece) {
+  std::string payload;
+  payload.reserve(sizeof t_ns + piece.size());
+  Put(payload, t_ns);
+  payload.append(piece);
+  return LogBlock(payload, kPieceBit | 1U);
 }
 
 std::string LogEnd(std::uint64_t pushed) {
@@ -439,6 +463,12 @@ DeviceLogContent ParseDeviceLog(std::string_view bytes, const std::filesystem::p
         refuse(where + " is damaged; take another copy of the file, or record it again");
       payload = taker.Bytes(size);
       is_whole = taker.is_good() && Checksum(payload) == checksum;
+      const bool is_piece =
+          version >= kHasPieces && (records & kPieceBit) != 0 && has_sources && !pushed;
+      if (is_piece && taker.is_good()) {
+        if (!is_whole || !TakePiece(payload, log)) ++log.damaged_pieces;
+        continue;
+      }
       if (!is_whole && taker.is_good() && taker.left() > 0)
         refuse(where + " is damaged; take another copy of the file, or record it again");
     }

@@ -1,14 +1,16 @@
-// Bytes of a device log, little-endian, version 4:
+// Bytes of a device log, little-endian, version 5:
 //   "ARTHRLOG", u32 version, then blocks to the end of the file
 //   block: u32 size of the payload, u32 records in it, u32 CRC-32 of the payload, u32 CRC-32 of the
 //          twelve bytes before; payload
-// The payload of the first block is JSON, {"version": 4, "sources": [{family, model, serial,
+// The payload of the first block is JSON, {"version": 5, "sources": [{family, model, serial,
 // roles}]}, and its count that of the sources. Other blocks contain records: u8 kind, u8 source,
 // u16 size of the body, i64 t_ns, u64 number; then, by kind, the body that Append writes. The last
 // block holds a single record, the end. A program that dies while writing leaves no end, and
 // perhaps an incomplete block; nothing else is lost. Version 1 has no end, and versions 1 and 2
 // have no wishes and no version in their first block. Version 3 has no options, and its wishes no
-// camera head, disturbances and mounts. All of them can be read.
+// camera head, disturbances and mounts. Versions before 5 have no pieces of tissue: a block whose
+// count has the bit kPieceBit holds one of them, i64 t_ns and bytes (training/track). A damaged
+// piece is left out, since the rest of the log does not depend on it. All versions can be read.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +23,7 @@
 
 namespace arthro::simulation {
 
-inline constexpr std::uint32_t kLogVersion = 4, kOldestLogVersion = 1;
+inline constexpr std::uint32_t kLogVersion = 5, kOldestLogVersion = 1;
 inline constexpr std::size_t kLargestBlock = 1 << 20;  // bytes of payload
 
 // Appends a record to `payload`; allocates nothing where kLargestRecord more bytes are reserved.
@@ -32,9 +34,14 @@ inline constexpr std::size_t kLargestBody = 0xffff;
 void AppendBody(LogKind kind, std::int64_t t_ns, std::uint64_t number, std::string_view body,
                 std::string& payload);
 
-// Return the beginning of a file with its first block, and a block.
+// Largest piece of tissue, and the bit by which its block is told.
+inline constexpr std::size_t kLargestPiece = kLargestBlock - sizeof(std::int64_t);
+inline constexpr std::uint32_t kPieceBit = 0x80000000U;
+
+// Return the beginning of a file with its first block, a block, and the block of a piece.
 std::string LogHead(std::span<const LogSource> sources, std::uint32_t version = kLogVersion);
 std::string LogBlock(std::string_view payload, std::uint32_t records);
+std::string PieceBlock(std::int64_t t_ns, std::string_view piece);
 // Returns the last block, with the number of pushed records, dropped ones included.
 std::string LogEnd(std::uint64_t pushed);
 
@@ -48,6 +55,8 @@ struct LoggedBody {
 struct DeviceLogContent {
   std::vector<LogSource> sources;
   std::vector<LoggedBody> attempt;  // in the order of the file
+  std::vector<LoggedBody> pieces;   // pieces of tissue, in the order of the file
+  long damaged_pieces = 0;          // left out
   std::string bodies;
   std::vector<LogRecord> records;  // in order of time, without the end
   // Number of records that were dropped while recording; without an end, a lower bound.

@@ -36,6 +36,7 @@ enum class LogKind : std::uint8_t {
   kAttempt,
   kFrame,
   kEvent,
+  kPiece,  // piece of tissue, which has a block of its own
 };
 
 // State of a hand after a report. Joints, push and turn, which the servo does not see, are kept as

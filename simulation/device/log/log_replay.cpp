@@ -57,6 +57,28 @@ ReportReplay ReplayReports(const DeviceLogContent& log, int source) {
   return replay;
 }
 
+namespace {
+
+// A table whose first columns are those of a trace; its reader says what else is wrong with it.
+bool LooksLikeTrace(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF", kBegin = "t,device";
+  return text.substr(0, kBegin.size()) == kBegin ||
+         text.substr(0, kByteOrderMark.size() + kBegin.size()) ==
+             std::string(kByteOrderMark) + std::string(kBegin);
+}
+
+std::string WhyNoHands(const DeviceLogContent& log) {
+  if (!log.attempt.empty())
+    return "this is an attempt at an exercise, which holds no hands to replay; look back at it in "
+           "the window, or give it to `arthroscene assess`";
+  if (!log.torn.empty())
+    return "this recording was cut short before anything was recorded; take another copy of the "
+           "file, or record it again";
+  return "this device log has no hand in it: no device with a role was ready; record it again";
+}
+
+}  // namespace
+
 Recording RecordingOf(const DeviceLogContent& log, const std::filesystem::path& file) {
   Recording recording;
   std::vector<TraceRow>& rows = recording.rows;
@@ -75,11 +97,7 @@ Recording RecordingOf(const DeviceLogContent& log, const std::filesystem::path& 
     t = record.sample.t;
     rows.push_back({*role, record.sample});
   }
-  if (rows.empty())
-    throw Error(Code::kBadData,
-                "this device log has no hand in it: no device with a role was ready; record it "
-                "again",
-                file);
+  if (rows.empty()) throw Error(Code::kBadData, WhyNoHands(log), file);
   std::stable_sort(rows.begin(), rows.end(),
                    [](const TraceRow& a, const TraceRow& b) { return a.sample.t < b.sample.t; });
   const double begin = rows.front().sample.t;
@@ -95,7 +113,16 @@ Recording RecordingOf(const DeviceLogContent& log, const std::filesystem::path& 
 Recording ReadRecording(const std::filesystem::path& file, std::string& notice) {
   const std::string bytes = ReadWholeFile(file);
   notice.clear();
-  if (!IsDeviceLog(bytes)) return {ParseTrace(bytes, file)};
+  if (!IsDeviceLog(bytes)) {
+    if (!LooksLikeTrace(bytes))
+      throw Error(Code::kBadData,
+                  bytes.empty()
+                      ? "this file is empty, so it holds no recording; name another one"
+                      : "this is no recording of the program: neither a log nor a table of hands "
+                        "(TRACE.csv); name another file",
+                  file);
+    return {ParseTrace(bytes, file)};
+  }
   const DeviceLogContent log = ParseDeviceLog(bytes, file);
   if (!log.torn.empty()) notice = file.string() + ": " + log.torn;
   if (log.missing > 0)

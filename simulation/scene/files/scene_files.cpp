@@ -1,5 +1,6 @@
 #include "simulation/scene/files/scene_files.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "simulation/core/error.h"
@@ -24,6 +25,20 @@ std::map<std::string, std::filesystem::path> UnmendedFilesOf(const Scene& scene)
   return files;
 }
 
+std::vector<ExerciseFile> ExerciseFilesOf(Scene& scene) {
+  std::vector<ExerciseFile> files;
+  for (std::size_t i = 0; i < scene.exercises.size(); ++i) {
+    Exercise& exercise = scene.exercises[i];
+    files.push_back({fmt::format("exercises[{}].picture", i), &exercise.picture, true});
+    files.push_back({fmt::format("exercises[{}].ghost", i), &exercise.ghost, false});
+    for (std::size_t k = 0; k < exercise.steps.size(); ++k)
+      files.push_back({fmt::format("exercises[{}].steps[{}].picture", i, k),
+                       &BaseOf(exercise.steps[k]).picture, true});
+  }
+  std::erase_if(files, [](const ExerciseFile& file) { return file.name->empty(); });
+  return files;
+}
+
 std::vector<std::filesystem::path> FilesNamedBy(const Scene& scene) {
   const Backdrop& backdrop = scene.backdrop;
   std::vector<std::filesystem::path> files = {backdrop.panorama,    backdrop.depth,
@@ -33,11 +48,8 @@ std::vector<std::filesystem::path> FilesNamedBy(const Scene& scene) {
     files.push_back(tissue.surface);
     files.push_back(tissue.mesh);
   }
-  for (const Exercise& exercise : scene.exercises) {
-    files.push_back(exercise.picture);
-    files.push_back(exercise.ghost);
-    for (const ExerciseStep& step : exercise.steps) files.push_back(BaseOf(step).picture);
-  }
+  Scene named = scene;
+  for (const ExerciseFile& file : ExerciseFilesOf(named)) files.push_back(*file.name);
   for (const auto& [word, file] : UnmendedFilesOf(scene)) files.push_back(file);
   std::erase_if(files, [](const std::filesystem::path& file) { return file.empty(); });
   return files;

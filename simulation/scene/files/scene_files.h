@@ -17,6 +17,15 @@ inline constexpr const char* kUnmendedDepthKey = "x-depth-unmended";
 // Those files by these words; none where the key is missing or holds something else.
 std::map<std::string, std::filesystem::path> UnmendedFilesOf(const Scene& scene);
 
+// File of an exercise: the key that names it, and the name itself in the scene.
+struct ExerciseFile {
+  std::string key;
+  std::filesystem::path* name = nullptr;
+  bool is_picture = false;  // false: the recording of an expert
+};
+// Files that the exercises name. The names can be changed.
+std::vector<ExerciseFile> ExerciseFilesOf(Scene& scene);
+
 // Panorama, depth map with its standard error and origins, also as it was before strokes, lens,
 // surfaces, meshes, and pictures and recordings of exercises, as the scene writes them; empty ones
 // left out.

@@ -97,6 +97,20 @@ void Encode(const fs::path& file, const cv::Mat& mat, const std::vector<int>& pa
                   std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
+std::string Packed(const ColourImage& image, const char* extension,
+                   const std::vector<int>& parameters) {
+  std::vector<unsigned char> bytes;
+  bool encoded = false;
+  try {
+    encoded = cv::imencode(extension, BgrOf(image), bytes, parameters);
+  } catch (const cv::Exception&) {
+    encoded = false;
+  }
+  if (!encoded)
+    throw Error(Code::kBadImage, fmt::format("this picture could not be packed as {}", extension));
+  return {bytes.begin(), bytes.end()};
+}
+
 void RequireSizeOfDepth(const DepthMap& depth, const char* what, int width, int height,
                         const fs::path& file) {
   if (depth.width == width && depth.height == height) return;
@@ -140,15 +154,11 @@ void WriteColourImage(const fs::path& file, const ColourImage& image) {
 }
 
 std::string PngFromColourImage(const ColourImage& image) {
-  std::vector<unsigned char> bytes;
-  bool encoded = false;
-  try {
-    encoded = cv::imencode(".png", BgrOf(image), bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
-  } catch (const cv::Exception&) {
-    encoded = false;
-  }
-  if (!encoded) throw Error(Code::kBadImage, "this picture could not be packed as PNG");
-  return {bytes.begin(), bytes.end()};
+  return Packed(image, ".png", {cv::IMWRITE_PNG_COMPRESSION, 1});
+}
+
+std::string JpegFromColourImage(const ColourImage& image, int quality) {
+  return Packed(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, quality});
 }
 
 DepthMap ReadDepthMap(const fs::path& file) {

@@ -7,6 +7,7 @@
 namespace arthro {
 
 std::string CanonicalJson(Exercise exercise) {
+  exercise.ghost.clear();
   nlohmann::ordered_json fields = nlohmann::ordered_json::object();
   exercise.Visit(FieldWriter(fields));
   const nlohmann::json sorted = fields;

@@ -10,7 +10,8 @@
 namespace arthro {
 
 // JSON on one line with the keys in alphabetical order: the same for the same exercise, whatever
-// the order of its keys in scene.json was.
+// the order of its keys in scene.json was. The recording of an expert is left out: it asks for
+// nothing, and one is made of the exercise as it stands.
 std::string CanonicalJson(Exercise exercise);
 
 // The exercise of such a text. Throws Error(kBadData) with the first fault.

@@ -74,9 +74,18 @@ bool RobotJoint::Advance(const RobotHands& to) {
     KeepEvents();
     if (HasEnded()) break;
   }
+  KeepTissue(world);
   session_.SetDisturbances(
       DisturbancesOf(engine_.exercise().setup.disturbances, engine_.strip().haze));
   return !HasEnded();
+}
+
+void RobotJoint::KeepTissue(const WorldPicture* world) {
+  if (log_ == nullptr || frames_.empty()) return;
+  std::vector<TrackPiece> pieces;
+  recorder_.Record(kFrameTime * static_cast<double>(frames_.size()),
+                   world != nullptr ? *world : WorldPicture(), pieces);
+  for (const TrackPiece& piece : pieces) log_->Add(piece);
 }
 
 void RobotJoint::KeepEvents() {

@@ -12,6 +12,7 @@
 #include "simulation/training/attempt_log.h"
 #include "simulation/training/observe/live_attempt.h"
 #include "simulation/training/steps/step_engine.h"
+#include "simulation/training/track/track_recorder.h"
 
 namespace arthro::simulation {
 
@@ -24,8 +25,8 @@ struct RobotHands {
 class RobotJoint {
  public:
   // Begins in the state of the exercise, with the instrument outside of the joint. `log` gets
-  // frames and events; null: none. `loaded` and `log` outlive this. Throws Error for a scene or an
-  // exercise that cannot be practised.
+  // frames, events and the tissue track; null: none. `loaded` and `log` outlive this. Throws Error
+  // for a scene or an exercise that cannot be practised.
   RobotJoint(const LoadedScene& loaded, const Exercise& exercise,
              const std::vector<TissuePreset>& presets, AttemptLog* log = nullptr);
 
@@ -55,6 +56,7 @@ class RobotJoint {
 
  private:
   void KeepEvents();
+  void KeepTissue(const WorldPicture* world);
 
   const LoadedScene& loaded_;
   Session session_;
@@ -68,6 +70,7 @@ class RobotJoint {
   std::vector<AttemptFrame> frames_;
   std::vector<TraineeAct> acts_;
   std::size_t kept_events_ = 0;
+  TrackRecorder recorder_;
   long ticks_ = 0;
 };
 

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "app/editor/every_step.h"
@@ -16,6 +18,12 @@
 #include "app/steps/lessons/trainee.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/tissue_step.h"
+#include "authoring/project/document_io.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/scene/files/scene_io.h"
+#include "simulation/training/attempt_log.h"
+#include "simulation/training/robot/robot_hands.h"
+#include "simulation/training/track/track_recorder.h"
 #include "tests/app/commands/settle.h"
 #include "tests/support/temp_folder.h"
 
@@ -208,6 +216,131 @@ TEST(StoredAttempt, IsShownWithTheResultAndTheFramesThatItHadAfterThePractice) {
         << value.metric->id << " " << value.part;
   app::Run(window.state, "attempt-debrief");
   EXPECT_NE(DebriefFrame(window.state), nullptr);
+}
+
+// Tissue of the practice at a moment in which it was recorded.
+struct SeenTissue {
+  double t = 0;  // s of the attempt
+  std::vector<glm::dvec3> positions;
+};
+
+// Presses the front of the meniscus with the probe. Returns its places at each record of it.
+std::vector<SeenTissue> PressMeniscus(Window& window, int frames) {
+  std::vector<SeenTissue> seen;
+  const Tissue& tissue = window.state.document().scene.tissues.at(0);
+  const glm::dvec3 edge = tissue.pose * glm::dvec3(0.0029, 0.0059, 0.0029);
+  const glm::dvec3 portal(window.state.practice->incision_spacing(), 0, 0);
+  for (int i = 0; i < frames; ++i) {
+    const glm::dvec3 tip = glm::mix(portal, edge, 0.9 + 0.2 * i / frames);
+    window.state.practice->instrument().Set(simulation::PoseOfTip(portal, tip, 0));
+    window.state.practice->Advance(1.0 / 60);
+    const std::size_t before = window.step().running->track.size();
+    FollowAttempt(window.state);
+    if (window.step().running->track.size() > before)
+      seen.push_back({window.step().running->track.back().t,
+                      window.state.practice->tissues()->bodies.at(0).positions});
+  }
+  return seen;
+}
+
+TEST(StoredAttempt, ShowsTheTissueAsItWasPressed) {
+  Window window;
+  window.step().start->unknown = "T-1";
+  AddTraineeCode(window.state);
+  window.Practise(5);
+  const std::vector<SeenTissue> seen = PressMeniscus(window, 90);
+  ASSERT_GT(seen.size(), 5U);
+  app::Run(window.state, "leave-practice");
+  const auto tissue_at = [&](double t) {
+    window.step().debrief.at = t;
+    const simulation::WorldPicture* world = DebriefTissues(window.state);
+    return world == nullptr || world->bodies.empty() ? std::vector<glm::dvec3>()
+                                                     : world->bodies[0].positions;
+  };
+  const auto expect_as_seen = [&] {
+    double pressed = 0;
+    const auto rest = tissue_at(0);
+    for (const SeenTissue& moment : seen) {
+      const auto shown = tissue_at(moment.t);
+      ASSERT_EQ(shown.size(), moment.positions.size());
+      for (std::size_t i = 0; i < shown.size(); ++i) {
+        EXPECT_LE(glm::distance(shown[i], moment.positions[i]), simulation::kTrackStill + 1e-5);
+        pressed = std::max(pressed, glm::distance(rest[i], shown[i]));
+      }
+    }
+    EXPECT_GT(pressed, 4e-4) << "the probe moved the meniscus";
+  };
+  app::Run(window.state, "attempt-debrief");
+  expect_as_seen();
+  ShowStoredAttempt(window.state, window.Kept("T-1").at(0).id);
+  EXPECT_EQ(window.step().finished->notice, "");
+  EXPECT_EQ(DebriefTissues(window.state), nullptr) << "the result is shown, not the look back";
+  app::Run(window.state, "attempt-debrief");
+  expect_as_seen();
+}
+
+TEST(Expert, OfTheSceneStandsBesideAnAttemptAtTheSameStep) {
+  WithAttempt window;
+  ShowStoredAttempt(window.state, window.id());
+  EXPECT_FALSE(CommandOf(window.state, "use-as-expert").enabled(window.state)) << "not passed";
+  app::Run(window.state, "attempt-debrief");
+  EXPECT_EQ(ExpertFrame(window.state), nullptr);
+  EXPECT_NE(window.step().debrief.expert_words.find("Use as expert's"), std::string::npos);
+  window.step().finished->result.outcome = simulation::AttemptOutcome::kPassed;
+  app::Run(window.state, "use-as-expert");
+  const Exercise& exercise = *ChosenExercise(window.state);
+  EXPECT_EQ(exercise.ghost, "expert-centre-and-hold.attempt");
+  EXPECT_EQ(FreshStartBoard(window.state).rows.at(0).tries, 1) << "it is the same exercise still";
+
+  ShowStoredAttempt(window.state, window.id());
+  app::Run(window.state, "attempt-debrief");
+  const simulation::AttemptFrame* expert = ExpertFrame(window.state);
+  ASSERT_NE(expert, nullptr) << window.step().debrief.expert_words;
+  EXPECT_EQ(*expert, *DebriefFrame(window.state)) << "it is the same attempt";
+
+  // The recording goes with the scene, and its file names nobody.
+  const std::filesystem::path copy = window.folder / "copy";
+  authoring::SaveDocument(window.state.document(), copy);
+  const LoadedScene saved = LoadScene(copy);
+  const std::string bytes = ReadWholeFile(FileOf(saved, saved.scene.exercises.at(0).ghost));
+  EXPECT_EQ(bytes.find("T-1"), std::string::npos);
+  app::Run(window.state, "undo");
+  EXPECT_TRUE(ChosenExercise(window.state)->ghost.empty());
+}
+
+TEST(Expert, ThatCannotBeReadLeavesOneSentence) {
+  WithAttempt window;
+  Edit(window.state, "Ghost", "",
+       [&](authoring::Document& document) { document.scene.exercises[0].ghost = "gone.attempt"; });
+  ShowStoredAttempt(window.state, window.id());
+  app::Run(window.state, "attempt-debrief");
+  EXPECT_EQ(ExpertFrame(window.state), nullptr);
+  EXPECT_NE(window.step().debrief.expert_words.find("cannot be shown"), std::string::npos);
+}
+
+TEST(StoredAttempt, WithoutItsTissueShowsItAtRestAndSaysSo) {
+  WithAttempt window;
+  const std::filesystem::path file = window.folder / window.Kept("T-1").at(0).log;
+  auto recorded = simulation::ReadAttempt(file);
+  std::filesystem::remove(file);
+  simulation::AttemptLog log(file, recorded.hands, recorded.head);
+  for (const simulation::AttemptFrame& frame : recorded.frames) log.Add(frame);
+  log.Close();
+  ShowStoredAttempt(window.state, window.id());
+  EXPECT_NE(window.step().finished->notice.find("shows it at rest"), std::string::npos);
+  app::Run(window.state, "attempt-debrief");
+  EXPECT_NE(DebriefFrame(window.state), nullptr);
+  EXPECT_EQ(DebriefTissues(window.state), nullptr);
+}
+
+TEST(StoredAttempt, ThatWasCutShortSaysSo) {
+  WithAttempt window;
+  const std::filesystem::path file = window.folder / window.Kept("T-1").at(0).log;
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 100);
+  ShowStoredAttempt(window.state, window.id());
+  EXPECT_NE(window.step().finished->notice.find("The recording was cut short"), std::string::npos)
+      << window.step().finished->notice;
+  EXPECT_FALSE(window.step().finished->frames.empty());
 }
 
 TEST(StoredAttempt, OfASceneThatHasChangedSaysSo) {

@@ -50,6 +50,49 @@ TEST(AttemptReport, NeedsNoOtherFileAndNoScript) {
   EXPECT_EQ(page.find("nan"), std::string::npos);
 }
 
+TEST(AttemptReport, ShowsEndsOfStepsAndFaultsInTheOrderOfTime) {
+  AttemptRecord attempt;
+  attempt.steps = {{"a", "done", 0, 2.0}, {"b", "failed", 2, 9.0}, {"c", "pending", 0, {}}};
+  attempt.events = {{3, "zone_in", "b", "ligament", "", {}},
+                    {4, "force_over", "b", "", "", 9.5},
+                    {5, "cut_outside", "b", "", "", {}}};
+  CriterionRow criterion;
+  criterion.metric = "peak_force";
+  criterion.value = 9.5;
+  attempt.criteria = {criterion};
+  std::vector<simulation::AttemptFrame> frames(900);
+  frames[399].tool[1].peak_force = 9.5F;
+  const auto moments = MomentsOf(attempt, frames);
+  std::vector<std::string> words;
+  for (const ReportMoment& moment : moments) words.push_back(moment.words);
+  EXPECT_EQ(words,
+            (std::vector<std::string>{"a: done", "zone entered: ligament", "largest force: 9.5 N",
+                                      "cut outside of the regions", "b: failed"}));
+  EXPECT_FALSE(moments[0].is_fault);
+  EXPECT_TRUE(moments[4].is_fault);
+  EXPECT_NEAR(moments[2].t, 4, 1e-9);
+  criterion.metric = "taken_outside";
+  criterion.passed = true;
+  attempt.criteria.push_back(criterion);
+  EXPECT_EQ(MomentsOf(attempt, frames).size(), 4U) << "the criterion allows what was cut outside";
+  attempt.events.assign(40, {3, "drop", "b", "ball", "", {}});
+  EXPECT_EQ(MomentsOf(attempt, frames).size(), 2 + kMostFaultPictures);
+}
+
+TEST(AttemptReport, HoldsItsPicturesAndTheExpertsValuesItself) {
+  AttemptReport report = SampleReport();
+  report.pictures = {{{1.5, "s<1>: done", false}, "\xff\xd8\xff"}, {{2, "drop", true}, "Ma"}};
+  report.expert = report.attempt.metrics;
+  const std::string page = AttemptPage(report);
+  EXPECT_NE(page.find("<img alt=\"\" src=\"data:image/jpeg;base64,/9j/\">"), std::string::npos);
+  EXPECT_NE(page.find("base64,TWE=\""), std::string::npos);
+  EXPECT_NE(page.find("1.5 s, s&lt;1&gt;: done"), std::string::npos);
+  EXPECT_NE(page.find("shown at rest"), std::string::npos) << "no tissue was recorded";
+  EXPECT_NE(page.find("<th>Expert</th>"), std::string::npos);
+  for (std::size_t at = page.find("src="); at != std::string::npos; at = page.find("src=", at + 1))
+    EXPECT_EQ(page.substr(at, 10), "src=\"data:");
+}
+
 TEST(AttemptReport, EscapesWhatATraineeTyped) {
   AttemptReport report = SampleReport();
   report.goal = "<script>alert(1)</script>";

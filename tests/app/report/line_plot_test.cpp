@@ -36,6 +36,30 @@ TEST(LinePlot, GapsPartACurve) {
   EXPECT_EQ(std::count(path.begin(), path.end(), 'M'), 2);
 }
 
+// Number behind the last `key` before the text `words`.
+double NumberBefore(const std::string& svg, const std::string& words, const std::string& key) {
+  const std::size_t at = svg.rfind(key, svg.find(words));
+  return std::stod(svg.substr(at + key.size()));
+}
+
+TEST(LinePlot, NamesOfDivisionsCrossNoLimitAndNoneOfItsWords) {
+  for (const double limit : {2.0, 7.0, 8.0, 8.4, 8.5}) {
+    LinePlot plot;
+    plot.begins_at_zero = true;
+    plot.curves = {{"a", {{0, 1}, {10, 8.5}}}};
+    plot.limits = {{limit, "limit"}};
+    plot.divisions = {{1, "step"}};
+    const std::string svg = LinePlotSvg(plot);
+    const double words = NumberBefore(svg, ">step<", "y=\"");
+    const double limit_words = NumberBefore(svg, ">limit<", "y=\"");
+    const double line = limit_words + 4;  // the words of a limit stand 4 px above it
+    EXPECT_NE(svg.find(" " + std::to_string(static_cast<int>(line)) + "."), std::string::npos);
+    // Letters of 11 px: 11 px above their baseline and 3 px below it.
+    EXPECT_TRUE(words - 11 >= line || words + 3 <= line) << limit;
+    EXPECT_TRUE(words - 11 >= limit_words + 3 || words + 3 <= limit_words - 11) << limit;
+  }
+}
+
 TEST(LinePlot, SaysThatNothingWasMeasured) {
   EXPECT_NE(LinePlotSvg({}).find("Nothing was measured."), std::string::npos);
   LinePlot one;

@@ -135,6 +135,27 @@ TEST(DocumentIo, SaveAsIntoAnotherFolderCopiesEverything) {
   ExpectSame(OpenDocument(folder / "two"), saved);
 }
 
+TEST(DocumentIo, ACopyHoldsThePicturesAndRecordingsOfItsExercises) {
+  test::TempFolder folder;
+  Document document = Sources(folder.path()).Author();
+  Exercise exercise;
+  exercise.id = "look";
+  exercise.ghost = "expert.attempt";
+  exercise.picture = "look.png";
+  document.scene.exercises = {exercise};
+  WriteAtomically(folder / "expert.attempt", "frames");
+  WriteColourImage(folder / "look.png", ColourImage(8, 8));
+  for (const char* name : {"expert.attempt", "look.png"})
+    document.files[name] = {folder / name, {}, {}};
+  const Document saved = SaveDocument(document, folder / "scene");
+  const Document copy = SaveDocument(saved, folder / "copy");
+  fs::remove_all(folder / "scene");
+  const Document opened = OpenDocument(folder / "copy");
+  EXPECT_EQ(ReadWholeFile(FileOf(opened, opened.scene.exercises.at(0).ghost)), "frames");
+  EXPECT_EQ(ReadColourImage(FileOf(opened, opened.scene.exercises.at(0).picture)).width, 8);
+  ExpectSame(SaveDocument(opened, folder / "copy"), opened);
+}
+
 TEST(DocumentIo, AnArchiveIsOpenedChangedAndSavedLikeAFolder) {
   test::TempFolder folder;
   const Sources sources(folder.path());

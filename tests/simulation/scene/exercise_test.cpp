@@ -101,6 +101,9 @@ TEST(ExerciseHash, ChangesWithEveryValueAndWithNothingElse) {
   }
   EXPECT_GT(changed, 40);
   EXPECT_EQ(HashOf(FullScene().exercises[1]), hash);
+  Exercise with_expert = exercise;
+  with_expert.ghost = "another.attempt";
+  EXPECT_EQ(HashOf(with_expert), hash) << "an expert is recorded of the exercise as it is";
 }
 
 TEST(MirroredExercise, TwiceIsTheSameWithoutItsRecording) {

@@ -145,6 +145,53 @@ TEST_F(AttemptLogs, LogOfHandsIsNoAttempt) {
   EXPECT_THROW(AttemptOf(ParseDeviceLog(bytes)), Error);
 }
 
+// An attempt with frames and three pieces of tissue.
+std::string WithTissue(const std::filesystem::path& file, std::vector<AttemptFrame>& frames) {
+  AttemptLog log(file, kHands, "{}");
+  MovingHands hands(2);
+  for (int i = 1; i <= 300; ++i) {
+    log.Add(frames.emplace_back(hands.Next()));
+    if (i % 100 == 0)
+      log.Add(TrackPiece{0.01 * i, std::string(100'000, static_cast<char>('a' + i / 100))});
+  }
+  log.Close();
+  return ReadWholeFile(file);
+}
+
+TEST_F(AttemptLogs, PiecesOfTissueComeBackAndAreNotAmongTheFrames) {
+  std::vector<AttemptFrame> frames;
+  WithTissue(file, frames);
+  const RecordedAttempt attempt = ReadAttempt(file);
+  EXPECT_EQ(attempt.frames, frames);
+  ASSERT_EQ(attempt.track.size(), 3U);
+  EXPECT_NEAR(attempt.track[1].t, 2, 1e-9);
+  EXPECT_EQ(attempt.track[1].bytes, std::string(100'000, 'c')) << "larger than a record may be";
+  EXPECT_EQ(attempt.track_fault, "");
+  EXPECT_EQ(attempt.torn, "");
+}
+
+TEST_F(AttemptLogs, DamagedPieceOfTissueIsToldAndTheAttemptOpens) {
+  std::vector<AttemptFrame> frames;
+  std::string bytes = WithTissue(file, frames);
+  bytes[bytes.find("cccccc") + 500] = 'x';
+  const RecordedAttempt attempt = AttemptOf(ParseDeviceLog(bytes));
+  EXPECT_EQ(attempt.frames, frames);
+  EXPECT_EQ(attempt.track.size(), 2U);
+  EXPECT_NE(attempt.track_fault.find("1 of 3 records of the tissue are damaged"), std::string::npos)
+      << attempt.track_fault;
+  EXPECT_EQ(attempt.torn, "");
+}
+
+TEST_F(AttemptLogs, LogThatEndsInAPieceOfTissueKeepsTheFramesBefore) {
+  std::vector<AttemptFrame> frames;
+  const std::string bytes = WithTissue(file, frames);
+  const RecordedAttempt attempt =
+      AttemptOf(ParseDeviceLog(bytes.substr(0, bytes.find("cccccc") + 500)));
+  EXPECT_EQ(attempt.track.size(), 1U);
+  EXPECT_GE(attempt.frames.size(), 173U);
+  EXPECT_NE(attempt.torn, "");
+}
+
 TEST_F(AttemptLogs, DamagedFrameIsRefused) {
   std::string payload;
   AppendBody(LogKind::kAttempt, 0, 0, "", payload);

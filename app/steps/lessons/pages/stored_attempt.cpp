@@ -1,17 +1,14 @@
-// Attempts of the records in the window: the result and the look back as right after the practice,
-// and the report as a file.
+// Attempts of the records in the window: the result and the look back as right after the practice.
 
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 
 #include "app/records/attempts/records_file.h"
-#include "app/report/make_report.h"
-#include "app/state/command.h"
 #include "app/steps/lessons/instructor/rating_board.h"
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/lessons_step.h"
-#include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/json/exercise_json.h"
 #include "simulation/training/scene_of_attempt.h"
@@ -19,37 +16,44 @@
 namespace arthro::app {
 namespace {
 
-// Frames of the attempt; none, with a notice, where its log is damaged or on another station.
-std::vector<simulation::AttemptFrame> FramesOf(const EditorState& state, const Records& records,
-                                               const AttemptRecord& record, std::string& notice) {
-  try {
-    auto recording = simulation::ReadAttempt(records.folder() / record.log);
-    if (!simulation::IsOfScene(simulation::AttemptHeadOf(recording.head), state.document()))
-      notice = fmt::format(
-          "This attempt was made in the scene \"{}\" as it was then; open that one to look back in "
-          "it. The picture shows the scene that is open.",
-          record.scene);
-    return std::move(recording.frames);
-  } catch (const Error& fault) {
-    notice = fmt::format("The look back is not there, and the result is: {}", fault.what());
-    return {};
-  }
+// A sentence of its own.
+std::string SentenceOf(std::string words) {
+  if (!words.empty())
+    words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+  return words + ".";
 }
 
-AttemptReport ReportOfShown(EditorState& state, const FinishedAttempt& attempt) {
-  LessonRecords& records = *state.steps.lessons->records;
-  if (!attempt.id.empty() && records.open) try {
-      std::string notice;
-      return ReportFromRecords(*records.open, attempt.id, notice);
-    } catch (const Error&) {  // it waits in the outbox
+void AddNotice(std::string& notice, const std::string& sentence) {
+  notice += (notice.empty() ? "" : "\n") + sentence;
+}
+
+// Sets frames and tissue of the attempt; none, with a notice, where its log is damaged or on
+// another station.
+void TakeRecording(const EditorState& state, const Records& records, const AttemptRecord& record,
+                   FinishedAttempt& shown) {
+  try {
+    auto recording = simulation::ReadAttempt(records.folder() / record.log);
+    shown.frames = std::move(recording.frames);
+    if (!recording.torn.empty()) AddNotice(shown.notice, SentenceOf(recording.torn));
+    if (!simulation::IsOfScene(simulation::AttemptHeadOf(recording.head), state.document())) {
+      AddNotice(shown.notice,
+                fmt::format("This attempt was made in the scene \"{}\" as it was then; open that "
+                            "one to look back in it. The picture shows the scene that is open.",
+                            record.scene));
+      shown.is_of_scene = false;
+      return;
     }
-  AttemptReport report = MakeReport(attempt.exercise, attempt.result, attempt.frames);
-  report.attempt.id = attempt.id;
-  report.attempt.scene = state.document().scene.title;
-  report.attempt.mode = attempt.is_test ? AttemptMode::kTest : AttemptMode::kPractice;
-  report.is_mode_known = true;
-  report.trainee = attempt.trainee;
-  return report;
+    const auto track = std::make_shared<simulation::TissueTrack>(std::move(recording.track));
+    if (track->has_begun())
+      shown.track = track;
+    else
+      AddNotice(shown.notice,
+                "The tissue of this attempt was not recorded; the picture shows it at rest.");
+    if (!recording.track_fault.empty()) AddNotice(shown.notice, SentenceOf(recording.track_fault));
+  } catch (const Error& fault) {
+    shown.frames.clear();
+    shown.notice = fmt::format("The look back is not there, and the result is: {}", fault.what());
+  }
 }
 
 }  // namespace
@@ -65,8 +69,9 @@ void ShowStoredAttempt(EditorState& state, const std::string& id) {
   shown.trainee = bundle.trainees.at(0).code;
   shown.is_test = record.mode == AttemptMode::kTest;
   shown.result = ResultOf(record);
-  shown.frames = FramesOf(state, records, record, shown.notice);
+  TakeRecording(state, records, record, shown);
   shown.id = id;
+  shown.log = records.folder() / record.log;
   shown.started = record.started;
   const auto& exercises = state.document().scene.exercises;
   const auto own = std::ranges::find(exercises, shown.exercise.id, &Exercise::id);
@@ -75,23 +80,6 @@ void ShowStoredAttempt(EditorState& state, const std::string& id) {
   step.debrief = {};
   step.rating->blinded_attempt.clear();
   step.page = LessonPage::kSummary;
-}
-
-void SaveReport(EditorState& state) {
-  const FinishedAttempt& attempt = *state.steps.lessons->finished;
-  Browse(
-      state, BrowseFor::kSaveFile, "Save the report of this attempt", "Save",
-      {{"Pages", {".html"}}},
-      [](EditorState& now, const std::filesystem::path& file) {
-        if (!now.steps.lessons->finished) return;
-        Guarded(now, "Report", [&] {
-          WriteAtomically(file, AttemptPage(ReportOfShown(now, *now.steps.lessons->finished)),
-                          Access::kPrivate);
-          now.message = "The report is in " + file.string() + ".";
-        });
-      },
-      fmt::format("{}-{}.html", attempt.exercise.id,
-                  attempt.trainee.empty() ? "attempt" : attempt.trainee));
 }
 
 }  // namespace arthro::app

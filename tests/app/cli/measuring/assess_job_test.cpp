@@ -155,6 +155,43 @@ TEST_F(AssessJob, WritesPageJsonAndTableOfThePassedAttempt) {
   EXPECT_EQ(ReadWholeFile(Out("out.csv")).find("metric,part,value,unit,better,"), 0U);
 }
 
+TEST_F(AssessJob, ThePageHasAPictureAtTheEndOfEachStepUnlessTheyAreLeftOff) {
+  const auto pictures = [&](const std::string& flags) {
+    const auto job =
+        Assess(Demo(), Passed(), "--exercise telescope --report " + Out("page.html") + " " + flags);
+    EXPECT_EQ(job.exit_code, 0) << job.err;
+    const std::string page = ReadWholeFile(Out("page.html"));
+    long count = 0;
+    for (std::size_t at = 0; (at = page.find("<img ", at)) != std::string::npos; ++at) ++count;
+    // A machine without OpenGL writes the page without them, and says why.
+    if (count == 0 && flags.empty()) {
+      EXPECT_NE(job.err.find("the report has no pictures"), std::string::npos) << job.err;
+    }
+    return count;
+  };
+  EXPECT_EQ(pictures("--no-pictures"), 0);
+  const long count = pictures("");
+  EXPECT_TRUE(count == 0 || count == static_cast<long>(ExerciseOf("telescope").steps.size()))
+      << count;
+}
+
+TEST_F(AssessJob, TheExpertOfTheSceneStandsBesideTheValues) {
+  const fs::path scene =
+      Changed([](auto& json) { json["exercises"][1]["ghost"] = "expert.attempt"; });
+  ASSERT_EQ(ExerciseOf("telescope").id, "telescope");
+  fs::copy(Passed(), scene / "expert.attempt");
+  const auto job =
+      Assess(scene, Slow(), "--exercise telescope --no-pictures --report " + Out("page.html"));
+  ASSERT_EQ(job.exit_code, 0) << job.err;
+  EXPECT_EQ(job.err, "");
+  EXPECT_NE(ReadWholeFile(Out("page.html")).find("<th>Expert</th>"), std::string::npos);
+  WriteAtomically(scene / "expert.attempt", "text");
+  const auto without =
+      Assess(scene, Slow(), "--exercise telescope --no-pictures --report " + Out("page.html"));
+  EXPECT_EQ(without.exit_code, 0);
+  EXPECT_NE(without.err.find("the expert's attempt is left out"), std::string::npos) << without.err;
+}
+
 TEST_F(AssessJob, RequiredPassThatIsNotThereExitsWithOneAndTheReportIsWritten) {
   const auto job =
       Assess(Demo(), Slow(),

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/device/log/logged_device.h"
 #include "tests/simulation/device/live/arm_bench.h"
@@ -223,6 +224,32 @@ TEST_F(LogReplay, RefusesALogWithoutAHand) {
   DeviceLogContent log = ReadDeviceLog(file);
   log.sources[0].roles = {};
   EXPECT_THROW(RecordingOf(log), Error);
+}
+
+TEST_F(LogReplay, SaysWhatAFileIsNotAndWhatToDo) {
+  const auto sentence = [&](const std::string& bytes) {
+    const std::filesystem::path other = folder / "other";
+    WriteAtomically(other, bytes);
+    std::string notice;
+    try {
+      ReadRecording(other, notice);
+    } catch (const Error& fault) {
+      return std::string(fault.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(sentence("").find("this file is empty"), std::string::npos);
+  EXPECT_NE(sentence("Dear colleague,\n").find("neither a log nor a table of hands"),
+            std::string::npos);
+  EXPECT_NE(sentence("t,device,hip\n").find("the first line must be"), std::string::npos)
+      << "a table of hands with another head";
+  // An attempt that was cut off behind the head of its file, and a whole one.
+  const std::string head = LogHead({});
+  EXPECT_NE(sentence(head).find("cut short before anything was recorded"), std::string::npos);
+  std::string payload;
+  AppendBody(LogKind::kAttempt, 0, 0, "{}", payload);
+  EXPECT_NE(sentence(head + LogBlock(payload, 1) + LogEnd(1)).find("arthroscene assess"),
+            std::string::npos);
 }
 
 TEST_F(LogReplay, PlaysALogWithAPauseOfMoreThanAMinute) {

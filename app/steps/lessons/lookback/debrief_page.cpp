@@ -1,6 +1,7 @@
 // The look back at an attempt: steps and events beside the picture, force, centring and path over
 // time. A click into a figure or on an event goes there.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -166,18 +167,45 @@ Plot PathPlot(const FinishedAttempt& attempt, const AttemptFrame* now) {
   return plot;
 }
 
+// Two plots over time and one of paths: below each other, the last twice as high, or side by side
+// in a low area.
+std::array<Area, 3> PlotAreas(const Area& area, float gap) {
+  if (area.width > 2 * area.height) {
+    const float width = (area.width - 4 * gap) / 3;
+    const auto at = [&](float column) {
+      return Area{area.x + gap + column * (width + gap), area.y + gap, width,
+                  area.height - 2 * gap};
+    };
+    return {at(0), at(1), at(2)};
+  }
+  const float height = (area.height - 4 * gap) / 4;
+  const auto at = [&](float row, float rows) {
+    return Area{area.x + gap, area.y + gap + row * (height + gap), area.width - 2 * gap,
+                rows * height};
+  };
+  return {at(0, 1), at(1, 1), at(2, 2)};
+}
+
 void Events(Ui& ui, LessonsStep& step, const FinishedAttempt& attempt) {
   int number = 0;
   for (const AttemptEvent& event : attempt.result.events) {
     std::string words = fmt::format("{:.1f} s  {}", event.t, EventWords(event.kind));
     if (!event.target.empty()) words += " " + event.target;
-    if (!event.step.empty()) words += " (" + event.step + ")";
+    if (!event.step.empty() && event.target.empty()) words += " (" + event.step + ")";
     const bool is_now = std::abs(step.debrief.at - event.t) < 0.5;
     if (ListEntry(ui, words + "##" + std::to_string(number++), is_now)) step.debrief.at = event.t;
   }
 }
 
 }  // namespace
+
+void Notices(Ui& ui, const FinishedAttempt& attempt) {
+  for (std::size_t begin = 0; begin < attempt.notice.size();) {
+    const std::size_t end = std::min(attempt.notice.find('\n', begin), attempt.notice.size());
+    ColouredText(ui, attempt.notice.substr(begin, end - begin), kWarning);
+    begin = end + 1;
+  }
+}
 
 void DebriefSide(Ui& ui, EditorState& state, const Area& area) {
   const FixedWindow window(ui, "debrief", area, kPageWindow);
@@ -195,7 +223,8 @@ void DebriefSide(Ui& ui, EditorState& state, const Area& area) {
   ImGui::SameLine(0, ui.Px(6));
   CommandButton(ui, state, "attempt-summary", {half, ui.Px(40)});
   Slider(ui, "Speed", step.debrief.speed, 0.25, 4, "%.2f");
-  if (!attempt.notice.empty()) ColouredText(ui, attempt.notice, kWarning);
+  Notices(ui, attempt);
+  if (!step.debrief.expert) QuietText(ui, step.debrief.expert_words);
   Gap(ui);
   const bool rates = ShowsRating(state);
   Heading(ui, rates ? "Rating" : "Events");
@@ -216,19 +245,14 @@ void DebriefPlots(Ui& ui, EditorState& state, const Area& area) {
   const FixedWindow window(ui, "debrief plots", area, kPageWindow);
   LessonsStep& step = *state.steps.lessons;
   const FinishedAttempt& attempt = *step.finished;
-  const float gap = ui.Px(8), height = (area.height - 4 * gap) / 4;
-  const Area inner{area.x + gap, area.y + gap, area.width - 2 * gap, height};
-  const auto at = [&](float rows) {
-    Area row = inner;
-    row.y += rows * (height + gap);
-    return row;
-  };
-  for (const auto& picked : {DrawPlot(ui, ForcePlot(attempt, step.debrief), at(0)),
-                             DrawPlot(ui, CentrePlot(attempt, step.debrief), at(1))})
+  // The window would scroll if a plot reached into its padding.
+  Area room = area;
+  room.height -= ImGui::GetStyle().WindowPadding.y;
+  const std::array<Area, 3> areas = PlotAreas(room, ui.Px(8));
+  for (const auto& picked : {DrawPlot(ui, ForcePlot(attempt, step.debrief), areas[0]),
+                             DrawPlot(ui, CentrePlot(attempt, step.debrief), areas[1])})
     if (picked) step.debrief.at = *picked, step.debrief.plays = false;
-  Area rest = at(2);
-  rest.height = 2 * height;
-  DrawPlot(ui, PathPlot(attempt, DebriefFrame(state)), rest);
+  DrawPlot(ui, PathPlot(attempt, DebriefFrame(state)), areas[2]);
 }
 
 }  // namespace arthro::app

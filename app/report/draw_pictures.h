@@ -1,0 +1,23 @@
+// Pictures of an attempt's report, drawn without a window.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "app/report/report_picture.h"
+#include "simulation/scene/files/loaded_scene.h"
+#include "simulation/tissue/body/tissue_look.h"
+#include "simulation/training/track/track_piece.h"
+
+namespace arthro::app {
+
+// Draws the moments from the lens of the scope, with tissue as it was where `track` has it.
+// `looks`: one per tissue, or none. Throws Error(kDisplay) when nothing can draw, and Error for a
+// scene that cannot be drawn.
+std::vector<ReportPicture> DrawMoments(const LoadedScene& loaded,
+                                       std::span<const simulation::TissueLook> looks,
+                                       std::span<const simulation::AttemptFrame> frames,
+                                       std::vector<simulation::TrackPiece> track,
+                                       std::span<const ReportMoment> moments);
+
+}  // namespace arthro::app
