@@ -41,6 +41,7 @@ struct RobotJob {
 
 std::vector<std::string> FaultWords() {
   std::vector<std::string> words;
+  words.reserve(simulation::kRobotFaults);
   for (int i = 0; i < simulation::kRobotFaults; ++i)
     words.emplace_back(ToString(static_cast<RobotFault>(i)));
   return words;
