@@ -100,9 +100,16 @@ class Editor {
       if (!script_ || script_->state() == ScriptState::kRunning) continue;
       if (script_->state() == ScriptState::kFailed)
         throw Error(Code::kBadData, script_->failure(), *options_.script);
+      if (options_.is_unattended && Busy()) continue;
       break;
     }
     recovery_.Remove();
+    if (options_.is_unattended && !state_.dialogs.empty())
+      if (const auto* error = std::get_if<ErrorDialog>(&state_.dialogs.back()))
+        throw Error(
+            Code::kBadData,
+            fmt::format("the script ended with a message: {}: {}", error->title, error->sentence),
+            *options_.script);
     if (!FileOfViews(options_).empty()) WriteViewLayout(FileOfViews(options_), state_.views);
     if (state_.quit && script_ && script_->state() == ScriptState::kRunning && !script_->at_end())
       throw Error(

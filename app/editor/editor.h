@@ -36,6 +36,7 @@ struct EditorOptions {
   // Settings of the window by name, as flags give them; others are as the user has set them.
   std::map<std::string, std::string> look;
   int job_minutes = 2;                 // longest work that a script waits for
+  bool is_unattended = false;          // a script ends after its work, and fails with an open error
   std::optional<std::string> records;  // place of the records; none: those of the user
   // For tests.
   std::optional<std::filesystem::path> recent;    // file of the recent scenes; none: the user's

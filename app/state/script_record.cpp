@@ -75,14 +75,48 @@ std::string ChooseFile(EditorState& state, const fs::path& file) {
   return "";
 }
 
+namespace {
+
+// Why the command is not enabled, as far as that can be told for any of them.
+std::string WhyNot(const EditorState& state, const Command& command) {
+  if (state.jobs.busy())
+    return fmt::format("\"{}\" is still under way; put \"wait job\" on the line before",
+                       state.jobs.words());
+  if (state.practice)
+    return "a practice is under way; \"do leave-practice\" ends it, if it is not one of practice";
+  if (!HasPicture(state))
+    return "the scene has no picture; \"do import-panorama FILE\" gives it one";
+  return fmt::format(
+      "its work is not there, not chosen, or on a page that is not open. It does this: {}",
+      command.help);
+}
+
+// Why the dialog that is open stands in the way of a further command.
+std::string WordsOf(const Dialog& dialog) {
+  if (const auto* error = std::get_if<ErrorDialog>(&dialog))
+    return fmt::format("the message that is open: {}", error->sentence);
+  if (const auto* guard = std::get_if<GuardDialog>(&dialog))
+    return fmt::format(
+        "the question that is open: the scene has changes that are not saved; save it before you "
+        "{}",
+        guard->action);
+  return "the dialog that is open";
+}
+
+}  // namespace
+
 std::string RunByName(EditorState& state, const std::string& id, const fs::path& file) {
   for (const Command& command : state.commands) {
     if (id != command.id) continue;
-    if (!state.dialogs.empty()) return fmt::format("\"{}\" waits for the dialog that is open", id);
+    if (!state.dialogs.empty())
+      return fmt::format("\"{}\" waits for {}", id, WordsOf(state.dialogs.back()));
     if (!command.enabled(state))
-      return fmt::format("\"{}\" cannot be called now: {}", id, command.help);
+      return fmt::format("\"{}\" cannot be called now: {}", id, WhyNot(state, command));
     Run(state, command);
-    return file.empty() ? "" : ChooseFile(state, file);
+    if (file.empty()) return "";
+    if (!state.dialogs.empty() && !std::holds_alternative<BrowseDialog>(state.dialogs.back()))
+      return fmt::format("\"{}\" waits for {}", id, WordsOf(state.dialogs.back()));
+    return ChooseFile(state, file);
   }
   return fmt::format("there is no command \"{}\"; `arthroscene run --list` names them", id);
 }

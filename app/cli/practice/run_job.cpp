@@ -58,6 +58,7 @@ void AddRunJob(CLI::App& program) {
     options->script = *script;
     options->hidden = !*shows;
     options->job_minutes = kJobMinutes;
+    options->is_unattended = true;
     RunEditor(*options);
   });
 }

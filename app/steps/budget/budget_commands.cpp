@@ -31,11 +31,13 @@ void MakeChange(State& state) {
     state.message = "The change is made in the scene; the next practice uses it.";
 }
 
-// Starts to measure anew each time.
+// Starts to measure anew each time. From another step it is shown, whatever it was there.
 void ToggleBudget(State& state) {
+  const bool is_in_sight = state.practice || state.step == Step::kPractice;
   FrameBudget fresh;
-  fresh.is_shown = !state.steps.practice->budget->is_shown;
+  fresh.is_shown = !(is_in_sight && state.steps.practice->budget->is_shown);
   *state.steps.practice->budget = fresh;
+  if (!state.practice) state.step = Step::kPractice;
   state.steps.practice->shows_devices = state.steps.practice->disturbing.shows_panel = false;
 }
 

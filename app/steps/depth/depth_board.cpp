@@ -169,6 +169,14 @@ void SetScale(EditorState& state) {
       MmFromMetres(before), MmFromMetres(backdrop.radius), factor);
 }
 
+bool HasLengths(const EditorState& state) {
+  const auto is_there = [](const LengthPick& length) {
+    return length.points.from || length.is_given;
+  };
+  const DepthBoard& board = state.steps.depth->board;
+  return is_there(board.tissue) || is_there(board.instrument);
+}
+
 void ForgetLengths(EditorState& state) {
   DepthBoard& board = state.steps.depth->board;
   for (LengthPick* length : {&board.tissue, &board.instrument}) {

@@ -119,6 +119,7 @@ bool CanSetScale(const EditorState& state);
 // Scales the backdrop and its relief so that the given lengths are true. Throws
 // Error(kBadArgument).
 void SetScale(EditorState& state);
+bool HasLengths(const EditorState& state);  // a point or a length
 void ForgetLengths(EditorState& state);
 
 // Redraws the map when its parts changed; points of another panorama are dropped. Once a frame.

@@ -47,7 +47,10 @@ constexpr Command kCommands[] = {
      {},
      {},
      HasBoard,
-     [](State& state) { BoardOf(state).is_shown = false; }},
+     [](State& state) {
+       state.step = Step::kDepth;
+       BoardOf(state).is_shown = false;
+     }},
     {"map-origin",
      "Origin",
      "Colour each depth by its origin: measured, estimated from brightness or interpolated.",
@@ -190,7 +193,7 @@ constexpr Command kCommands[] = {
      "Depth",
      {},
      {},
-     HasBoard,
+     [](const State& state) { return HasBoard(state) && HasLengths(state); },
      ForgetLengths},
     {"import-depth",
      "Import a depth map…",

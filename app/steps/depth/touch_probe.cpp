@@ -83,7 +83,9 @@ TouchReading TouchProbe::Press(const glm::dvec3& point, double press) {
 
 void ToggleTouch(EditorState& state) {
   TouchPreview& touch = state.steps.depth->touch;
-  touch.is_on = !touch.is_on;
+  // From another page it is switched on, whatever it was there.
+  touch.is_on = state.step != Step::kDepth || !touch.is_on;
+  state.step = Step::kDepth;
   touch.reading.reset();
   if (touch.is_on && state.steps.depth->board.tool == MapTool::kBrush) LeaveDepthBrush(state);
   if (!touch.is_on) touch = {};

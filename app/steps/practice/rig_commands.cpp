@@ -39,6 +39,9 @@ void BeginRig(State& state) {
   editing.file.clear();
   editing.is_changed = true;
   editing.outcome.clear();
+  editing.is_shown = true;
+  state.steps.practice->shows_devices = false;
+  state.step = Step::kPractice;
 }
 
 bool MayHold(const State& state) {

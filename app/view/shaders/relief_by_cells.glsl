@@ -6,8 +6,11 @@
 const float kPaceTexels = 2.0;  // texels of the relief per step, at least
 const float kMostPace = 0.25;   // share of the search range
 const float kStartGap = 1e-3;   // behind the relief at either end, until it is computed
-const float kCloseSteps = 6.0;  // steps that remain to refine a crossing
-const float kMostClosed = 4.0;  // refinements
+const float kCloseSteps = 12.0; // steps that remain to refine a crossing
+// Refinements at most, and the gap to the relief at which they end. The side of a step is so steep
+// that four of them left a pixel anywhere on it: its outline was a comb of light and dark pixels.
+const float kMostClosed = 9.0;
+const float kCloseGap = 2e-5;
 const float kSideShare = 0.8;   // times kSide^2; from here on the relief around is read
 float meetReliefByCells(vec3 ray, float sphere, out vec3 x, out vec2 uv, out bool imaged,
                         out vec4 ground, out vec3 looks) {
@@ -44,7 +47,8 @@ float meetReliefByCells(vec3 ray, float sphere, out vec3 x, out vec2 uv, out boo
     high = is ? t : high, gapHigh = is ? gap : gapHigh;
     low = is ? low : t, gapLow = is ? gapLow : gap;
     closed += is || closed > 0.0 ? 1.0 : 0.0;
-    left = closed > kMostClosed || (closed == 0.0 && t >= end) ? 0.0 : left - 1.0;
+    bool isClose = closed > kMostClosed || (closed > 0.0 && abs(gap) < kCloseGap);
+    left = isClose || (closed == 0.0 && t >= end) ? 0.0 : left - 1.0;
     bool isThere = isLook || left <= 0.0;
     asks = isLook                                                                      ? asks - 1.0
            : isThere && searches && steepness2(x, ground) > kSideShare * kSide * kSide ? 3.0

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -77,6 +78,11 @@ Sums SumsOf(const DepthMap& depth, int passes) {
   return sums;
 }
 
+void WidenSums(Sums& sums, int width, int height, std::initializer_list<int> gaps) {
+  for (const int gap : gaps)
+    WidenAll(std::array{&sums.value, &sums.mass}, width, height, gap, {}, {0, 0, width, height});
+}
+
 Plane Ratio(const Sums& sums) {
   Plane ratio(sums.value.size());
   for (std::size_t i = 0; i < ratio.size(); ++i)
@@ -103,14 +109,16 @@ class Moments {
         yy_(m_),
         hx_(h_),
         hy_(h_) {
-    for (int row = 0; row < height; ++row)
-      for (int column = 0; column < width; ++column) {
-        const std::size_t i = At(column, row);
-        const float x = static_cast<float>(frame_.left + column) - centre_x_,
-                    y = static_cast<float>(frame_.top + row) - centre_y_;
-        x_[i] *= x, y_[i] *= y, hx_[i] *= x, hy_[i] *= y;
-        xx_[i] *= x * x, xy_[i] *= x * y, yy_[i] *= y * y;
-      }
+    ForRowsOnTwoThreads(0, height, [&](int first, int last) {
+      for (int row = first; row < last; ++row)
+        for (int column = 0; column < width; ++column) {
+          const std::size_t i = At(column, row);
+          const float x = static_cast<float>(frame_.left + column) - centre_x_,
+                      y = static_cast<float>(frame_.top + row) - centre_y_;
+          x_[i] *= x, y_[i] *= y, hx_[i] *= x, hy_[i] *= y;
+          xx_[i] *= x * x, xy_[i] *= x * y, yy_[i] *= y * y;
+        }
+    });
   }
   std::array<Plane*, 9> All() { return {&m_, &h_, &x_, &y_, &xx_, &xy_, &yy_, &hx_, &hy_}; }
 
@@ -157,10 +165,7 @@ Plane SmoothSigma(const DepthMap& depth, const DepthMap& sigma) {
     sums.value[i] = s * s;
     sums.mass[i] = 1.0f;
   }
-  Plane scratch;
-  for (Plane* plane : {&sums.value, &sums.mass})
-    for (const int gap : {1, 1, 2, 2, 4})
-      Widen(*plane, depth.width, depth.height, gap, {}, {0, 0, depth.width, depth.height}, scratch);
+  WidenSums(sums, depth.width, depth.height, {1, 1, 2, 2, 4});
   Plane smooth = Ratio(sums);
   for (float& variance : smooth) variance = std::sqrt(variance);
   return smooth;
@@ -210,10 +215,7 @@ WantedSmoothing SmoothingFor(const DepthMap& depth, const Plane& height, const P
 // How near each pixel is to a step; empty: there is none.
 Plane NearStepsOf(const DepthMap& depth, const Plane& sigma, const WantedSmoothing& wanted) {
   Sums sums = SumsOf(depth, 0);
-  Plane scratch;
-  for (Plane* plane : {&sums.value, &sums.mass})
-    for (const int gap : {1, 1, 2, 2})  // a standard deviation of 2.2 px
-      Widen(*plane, depth.width, depth.height, gap, {}, {0, 0, depth.width, depth.height}, scratch);
+  WidenSums(sums, depth.width, depth.height, {1, 1, 2, 2});  // a standard deviation of 2.2 px
   Plane smooth = Ratio(sums);
   for (std::size_t i = 0; i < smooth.size(); ++i)
     if (!std::isfinite(depth.relief[i])) smooth[i] = depth.relief[i];
@@ -222,9 +224,7 @@ Plane NearStepsOf(const DepthMap& depth, const Plane& sigma, const WantedSmoothi
   if (near.empty()) return near;
   // Fades over some 10 px; pixels beyond the border count as those beside it.
   Sums fading{std::move(near), Plane(depth.relief.size(), 1.0f)};
-  for (Plane* plane : {&fading.value, &fading.mass})
-    for (const int gap : {1, 2, 4, 8})
-      Widen(*plane, depth.width, depth.height, gap, {}, {0, 0, depth.width, depth.height}, scratch);
+  WidenSums(fading, depth.width, depth.height, {1, 2, 4, 8});
   return Ratio(fading);
 }
 

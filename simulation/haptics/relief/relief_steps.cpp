@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <thread>
 #include <utility>
 
 #include "simulation/haptics/relief/plane_filters.h"
@@ -97,7 +98,11 @@ std::vector<float> NearSteps(int width, int height, const std::vector<float>& sm
     low[i] = is_known ? -smooth[i] : -kNothing;
     error[i] = is_known ? -sigma[i] : -kNothing;
   }
-  for (Plane* plane : {&high, &low, &error}) Dilate(*plane, width, height, limits.reach);
+  {
+    const std::jthread other([&] { Dilate(high, width, height, limits.reach); });
+    Dilate(low, width, height, limits.reach);
+    Dilate(error, width, height, limits.reach);
+  }
 
   Lines lines{width, height, std::vector<std::uint8_t>(smooth.size(), kOrdinary)};
   for (std::size_t i = 0; i < smooth.size(); ++i) {

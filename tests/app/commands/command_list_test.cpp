@@ -12,12 +12,15 @@
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/steps/budget/frame_budget.h"
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/panorama_step.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/film.h"
 #include "app/steps/practice/hand_motion.h"
 #include "app/steps/practice/practice_step.h"
+#include "app/steps/practice/rig_edit.h"
+#include "app/steps/tissue/library/tissue_library.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "simulation/core/units.h"
@@ -71,6 +74,52 @@ TEST_F(Commands, AnImportedSurfaceIsPlacedFirst) {
   ImportSurface(state, "cartilage", *state.document().surfaces.front(), "m");
   EXPECT_EQ(state.step, Step::kTissue);
   EXPECT_EQ(state.steps.tissue->page, TissuePage::kPlace);
+}
+
+// Said what the command does, which is no reason.
+TEST_F(Commands, ACommandThatCannotBeCalledByNameSaysWhy) {
+  const auto why = [&](const char* id, const fs::path& file = {}) {
+    return RunByName(state, id, file);
+  };
+  EXPECT_NE(why("depth-map").find("the scene has no picture"), std::string::npos)
+      << why("depth-map");
+  Open();
+  EXPECT_NE(why("head-left").find("on a page that is not open"), std::string::npos);
+  SetTitle(state, "another");
+  EXPECT_NE(why("open", temp / "knee").find("the scene has changes that are not saved"),
+            std::string::npos);
+  EXPECT_NE(why("new").find("save it before you open another scene"), std::string::npos);
+  state.dialogs.clear();
+  app::Run(state, "save");
+  ASSERT_TRUE(state.jobs.busy());
+  EXPECT_NE(why("open", temp / "knee").find("put \"wait job\" on the line before"),
+            std::string::npos);
+  Settle(state);
+  app::Run(state, "practise");
+  Settle(state);
+  ASSERT_TRUE(state.practice);
+  EXPECT_NE(why("save").find("a practice is under way"), std::string::npos);
+}
+
+TEST_F(Commands, APageOfACommandThatIsCalledByNameIsOpened) {
+  Open();
+  EXPECT_EQ(RunByName(state, "touch-preview", {}), "");
+  EXPECT_TRUE(TouchesRelief(state));
+  EXPECT_EQ(RunByName(state, "touch-preview", {}), "");
+  EXPECT_FALSE(TouchesRelief(state));
+  EXPECT_EQ(RunByName(state, "library", {}), "");
+  EXPECT_EQ(state.step, Step::kTissue);
+  EXPECT_TRUE(state.steps.tissue->shelf->is_open);
+  EXPECT_EQ(RunByName(state, "depth-scope", {}), "");
+  EXPECT_EQ(state.step, Step::kDepth);
+  EXPECT_EQ(RunByName(state, "budget", {}), "");
+  EXPECT_EQ(state.step, Step::kPractice);
+  EXPECT_TRUE(state.steps.practice->budget->is_shown);
+  EXPECT_EQ(RunByName(state, "step-depth", {}), "");
+  EXPECT_EQ(RunByName(state, "new-rig", {}), "");
+  EXPECT_EQ(state.step, Step::kPractice);
+  EXPECT_TRUE(state.steps.practice->rig->is_shown);
+  EXPECT_NE(RunByName(state, "forget-lengths", {}), "") << "there are none";
 }
 
 TEST(CommandList, EveryCommandHasItsOwnIdWordsAndHelp) {

@@ -114,6 +114,24 @@ TEST_F(RecordedSession, ThatFailsNamesTheLine) {
   EXPECT_NE(wrong.err.find("script line 1"), std::string::npos) << wrong.err;
 }
 
+// The program ended while its last work was under way, and without a word of the message that
+// nobody could read.
+TEST_F(RecordedSession, EndsAfterItsLastWorkAndFailsWithAMessageThatIsOpen) {
+  const auto run = [&](const std::string& line) {
+    WriteAtomically(script(), "do open " + scene.string() + "\nwait job\n" + line + "\n");
+    return test::RunProgram("run " + script().string(),
+                            "env -u DISPLAY -u WAYLAND_DISPLAY HOME=" + temp.path().string() +
+                                " LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1");
+  };
+  const auto saved = run("do save-as " + (temp / "made").string());
+  EXPECT_EQ(saved.exit_code, 0) << saved.err;
+  EXPECT_TRUE(fs::exists(temp / "made" / "scene.json"));
+  WriteAtomically(temp / "broken.png", "no picture");
+  const auto broken = run("do import-panorama " + (temp / "broken.png").string());
+  EXPECT_EQ(broken.exit_code, 1);
+  EXPECT_NE(broken.err.find("broken.png"), std::string::npos) << broken.err;
+}
+
 TEST_F(RecordedSession, WithoutADisplayAndXvfbSaysWhatToInstall) {
   WriteAtomically(script(), "quit\n");
   const auto result = test::RunProgram("run " + script().string(),

@@ -11,6 +11,7 @@
 #include "app/view/backdrop/relief_outlines.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/view/grid_picture.h"
 #include "tests/support/view/reference_tracer.h"
 
@@ -316,6 +317,35 @@ TEST_F(BackdropView, ReliefDistanceAgreesWithTheReferenceTracer) {
       }
     }
   }
+}
+
+// A pixel that looks at the steep side of a step ended anywhere on it, so that its height, and with
+// it its colour, was random: a comb of light and dark pixels along the foot.
+TEST_F(BackdropView, SidesOfStepsHaveTheColoursOfASearchOfEveryPixel) {
+  const LoadedScene loaded = LoadScene(std::string(ARTHRO_SOURCE_DIR) + "/resources/demo");
+  view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
+  constexpr int kSize = 512;
+  int off = 0;
+  for (const double longitude : {-50.0, 35.0, 50.0}) {
+    Picture picture = PictureFromPose({0.0, RadiansFromDegrees(longitude), 0.0, 0.015},
+                                      loaded.scene.scope.view_angle, 1.5);
+    const auto pixels = [&](const app::ReliefSearch& relief) {
+      picture.relief = relief;
+      view_->Render(picture, kSize);
+      return view_->ReadPixels();
+    };
+    const ColourImage drawn = pixels(app::kUsualRelief), sought = pixels({1024, 1});
+    int here = 0;
+    for (std::size_t i = 0; i < drawn.rgb.size(); i += 3) {
+      int most = 0;
+      for (std::size_t c = 0; c < 3; ++c)
+        most = std::max(most, std::abs(int{drawn.rgb[i + c]} - int{sought.rgb[i + c]}));
+      here += most > 16 ? 1 : 0;
+    }
+    std::printf("sides at %.0f degrees: %d pixels of another colour\n", longitude, here);
+    off += here;
+  }
+  EXPECT_LT(off, 100);
 }
 
 // Occlusion: a lens on the high side of the step sees half of a ball.

@@ -23,7 +23,10 @@ constexpr Command kCommands[] = {
      {},
      HasPictureAndTime,
      [](State& state) {
-       state.steps.tissue->shelf->is_open = !state.steps.tissue->shelf->is_open;
+       // From another step it is opened, whatever it was there.
+       bool& is_open = state.steps.tissue->shelf->is_open;
+       is_open = state.step != Step::kTissue || !is_open;
+       state.step = Step::kTissue;
      }},
     {"add-medial-meniscus",
      "Medial meniscus",

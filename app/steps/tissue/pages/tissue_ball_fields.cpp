@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/panels/chosen_row.h"
 #include "app/panels/command_button.h"
 #include "app/panels/fixed_window.h"
 #include "app/state/command.h"
@@ -26,16 +27,17 @@ Buttons ButtonsOf(BallKind kind) {
 }
 
 void ListOf(Ui& ui, EditorState& state, const std::vector<Ball>& balls) {
-  constexpr int kRows = 3;  // seen at once; the rest is scrolled to
+  constexpr int kRows = 6;  // seen at once; the rest is scrolled to
   const float row = ImGui::GetTextLineHeightWithSpacing();
   const float rows = static_cast<float>(std::min<std::size_t>(balls.size(), kRows));
-  ImGui::BeginChild("balls", {0, rows * row}, true);
+  ImGui::BeginChild("balls", {0, rows * row + ui.Px(14)}, true);
   for (int i = 0; i < static_cast<int>(balls.size()); ++i) {
     const glm::dvec3 mm = balls[static_cast<std::size_t>(i)].centre / kMetrePerMillimetre;
     const std::string name = fmt::format("Ball {}", i + 1);
     const std::string words = fmt::format("{}: {:.1f}, {:.1f}, {:.1f} mm", name, mm.x, mm.y, mm.z);
     if (ImGui::Selectable(ui.translation.Label(words).c_str(), state.steps.tissue->ball == i))
       state.steps.tissue->ball = i;
+    ScrollToChosen(i, state.steps.tissue->ball);
     RecordItem(ui, name, true, state.steps.tissue->ball == i ? "on" : "off");
   }
   ImGui::EndChild();
@@ -45,23 +47,7 @@ void ListOf(Ui& ui, EditorState& state, const std::vector<Ball>& balls) {
 
 void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind) {
   const Buttons buttons = ButtonsOf(kind);
-  const std::vector<Ball>& balls = BallsOf(tissue, kind);
-  if (!balls.empty()) ListOf(ui, state, balls);
-  if (HasChosenBall(state, kind)) {
-    Ball ball = balls[static_cast<std::size_t>(state.steps.tissue->ball)];
-    double mm = MmFromMetres(ball.radius * tissue.pose.scale);
-    const Change change = Slider(ui, "Radius of this ball", mm, 0.2, 15.0, "%.1f mm");
-    if (change) {
-      ball.radius = MetresFromMm(mm) / tissue.pose.scale;
-      SetBall(state, kind, state.tissue, state.steps.tissue->ball, ball, "Change a ball of");
-    }
-    if (change.held) state.dragging = true;
-    if (change.released) EndDrag(state);
-    const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
-    CommandButton(ui, state, buttons.remove, {half, 0});
-    ImGui::SameLine(0, ui.Px(8));
-    CommandButton(ui, state, buttons.remove_all, {half, 0});
-  }
+  // Controls that add a ball come first, so that they keep their place while the list grows.
   double mm = MmFromMetres(state.steps.tissue->ball_radius);
   if (Slider(ui, "Radius of the next ball", mm, 0.2, 15.0, "%.1f mm"))
     state.steps.tissue->ball_radius = MetresFromMm(mm);
@@ -70,6 +56,24 @@ void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind)
                    {-FLT_MIN, 0}, brush.help))
     Run(state, brush);
   CommandButton(ui, state, buttons.at_instrument, {-FLT_MIN, 0});
+  const std::vector<Ball>& balls = BallsOf(tissue, kind);
+  if (!balls.empty()) ListOf(ui, state, balls);
+  // A ball that was added just now is not yet in `tissue`.
+  const auto chosen = static_cast<std::size_t>(std::max(state.steps.tissue->ball, 0));
+  if (!HasChosenBall(state, kind) || chosen >= balls.size()) return;
+  Ball ball = balls[chosen];
+  mm = MmFromMetres(ball.radius * tissue.pose.scale);
+  const Change change = Slider(ui, "Radius of this ball", mm, 0.2, 15.0, "%.1f mm");
+  if (change) {
+    ball.radius = MetresFromMm(mm) / tissue.pose.scale;
+    SetBall(state, kind, state.tissue, state.steps.tissue->ball, ball, "Change a ball of");
+  }
+  if (change.held) state.dragging = true;
+  if (change.released) EndDrag(state);
+  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
+  CommandButton(ui, state, buttons.remove, {half, 0});
+  ImGui::SameLine(0, ui.Px(8));
+  CommandButton(ui, state, buttons.remove_all, {half, 0});
 }
 
 }  // namespace arthro::app

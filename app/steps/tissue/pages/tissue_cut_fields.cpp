@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/panels/chosen_row.h"
 #include "app/panels/command_button.h"
 #include "app/panels/fixed_window.h"
 #include "app/state/command.h"
@@ -32,13 +33,14 @@ void List(Ui& ui, const char* id, int count, int chosen,
           const std::function<std::string(int)>& name, const std::function<std::string(int)>& words,
           const std::function<void(int)>& choose) {
   if (count == 0) return;
-  constexpr int kMostRows = 3;
+  constexpr int kMostRows = 4;
   const float row = ImGui::GetTextLineHeightWithSpacing();
   ImGui::BeginChild(id, {0, static_cast<float>(std::min(count, kMostRows)) * row + ui.Px(14)},
                     true);
   for (int i = 0; i < count; ++i) {
     ImGui::PushID(i);
     if (ImGui::Selectable((name(i) + ": " + ui.In(words(i))).c_str(), chosen == i)) choose(i);
+    ScrollToChosen(i, chosen);
     RecordItem(ui, name(i), true, chosen == i ? "on" : "off");
     ImGui::PopID();
   }
@@ -103,6 +105,13 @@ void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   }
   QuietText(ui, tissue.cuts.empty() ? "Whole. A trainee begins with what you cut here."
                                     : "A trainee begins with these cuts made.");
+  // Above the lists, so that they keep their place while these grow.
+  const float third = (ImGui::GetContentRegionAvail().x - 2 * ui.Px(8)) / 3;
+  BrushButton(ui, state, "cut-tear", CutBrush::Kind::kTear, third);
+  ImGui::SameLine(0, ui.Px(8));
+  BrushButton(ui, state, "cut-bite", CutBrush::Kind::kBite, third);
+  ImGui::SameLine(0, ui.Px(8));
+  BrushButton(ui, state, "cut-region", CutBrush::Kind::kRegion, third);
   List(
       ui, "cuts", static_cast<int>(tissue.cuts.size()), state.steps.tissue->cut,
       [&](int i) { return CutName(tissue, i); }, [&](int i) { return CutWords(tissue, i); },
@@ -117,12 +126,6 @@ void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue) {
         return fmt::format("radius {:.1f} mm", MmFromMetres(ball.radius * tissue.pose.scale));
       },
       [&](int i) { ChooseRegion(state, i); });
-  const float third = (ImGui::GetContentRegionAvail().x - 2 * ui.Px(8)) / 3;
-  BrushButton(ui, state, "cut-tear", CutBrush::Kind::kTear, third);
-  ImGui::SameLine(0, ui.Px(8));
-  BrushButton(ui, state, "cut-bite", CutBrush::Kind::kBite, third);
-  ImGui::SameLine(0, ui.Px(8));
-  BrushButton(ui, state, "cut-region", CutBrush::Kind::kRegion, third);
   const bool is_region = ChosenRegion(state) != nullptr ||
                          (ChosenCut(state) == nullptr &&
                           state.steps.tissue->cut_brush.kind == CutBrush::Kind::kRegion);

@@ -149,11 +149,11 @@ void MeshFields(Ui& ui, EditorState& state, const Tissue& tissue, const SurfaceM
           "fine meshes, not with the default of 300 elements."))
     state.steps.tissue->mesh_size = authoring::MeshBudgets()[static_cast<std::size_t>(chosen)].size;
   QuietText(ui, authoring::BudgetWords(authoring::BudgetOf(state.steps.tissue->mesh_size)));
+  CommandButton(ui, state, "tetrahedralise", {-FLT_MIN, 0});
   QuietText(ui, tissue.probed.empty()
                     ? "Finer where it is free. Or mark where it will be probed:"
                     : fmt::format("Finest in {} probed {}:", tissue.probed.size(),
                                   tissue.probed.size() == 1 ? "place" : "places"));
-  CommandButton(ui, state, "tetrahedralise", {-FLT_MIN, 0});
   BallFields(ui, state, tissue, BallKind::kProbed);
 }
 
