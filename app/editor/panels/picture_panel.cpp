@@ -80,7 +80,11 @@ void PoseStrip(Ui& ui, EditorState& state, const ImVec2& corner, float total_wid
   float x = corner.x;
   for (const Field& field : fields) {
     ImGui::SetCursorScreenPos({x, corner.y});
+    // In a narrow picture a name ends with its field.
+    ImGui::PushClipRect({x, corner.y}, {x + width, corner.y + 2 * ImGui::GetTextLineHeight()},
+                        true);
     WordsOverPicture(ui, field.name);
+    ImGui::PopClipRect();
     ImGui::SetCursorScreenPos({x, corner.y + ImGui::GetTextLineHeight() + ui.Px(4)});
     ImGui::SetNextItemWidth(width);
     changed = NumberField(ui, field.name, *field.value, field.step, field.low, field.high,

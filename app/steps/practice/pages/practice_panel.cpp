@@ -1,7 +1,10 @@
 // Step 5 in the editor, and the panel beside the large picture while a practice runs.
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <span>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -108,12 +111,17 @@ double Taken(const EditorState& state) {
   return removed;
 }
 
-// Commands side by side, each as wide as its words ask; lit while what they stand for is on.
-void CommandRow(Ui& ui, EditorState& state,
-                std::initializer_list<std::pair<const char*, bool>> row) {
+// Commands side by side, each as wide as its words ask; lit while what they stand for is on. In two
+// rows where there is no room for the words.
+using CommandState = std::pair<const char*, bool>;
+void CommandRow(Ui& ui, EditorState& state, std::span<const CommandState> row) {
   const float gap = ui.Px(6), count = static_cast<float>(row.size());
   float spare = ImGui::GetContentRegionAvail().x - gap * (count - 1);
   for (const auto& [id, is_on] : row) spare -= ui.WidthOf(CommandOf(state, id).words);
+  if (spare < 0 && row.size() > 1) {
+    CommandRow(ui, state, row.first((row.size() + 1) / 2));
+    return CommandRow(ui, state, row.last(row.size() / 2));
+  }
   bool is_first = true;
   for (const auto& [id, is_on] : row) {
     if (!is_first) ImGui::SameLine(0, gap);
@@ -125,6 +133,9 @@ void CommandRow(Ui& ui, EditorState& state,
     Tooltip(ui, command.help, WordsOf(command.shortcut));
     if (is_pressed) Run(state, command);
   }
+}
+void CommandRow(Ui& ui, EditorState& state, std::initializer_list<CommandState> row) {
+  CommandRow(ui, state, std::span(row.begin(), row.size()));
 }
 
 // How the camera's head is held, and by how much it was turned from there.
