@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstring>
 #include <fcntl.h>
 #include <fstream>
 #include <new>
@@ -12,6 +11,7 @@
 #include <sys/mman.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
+#include <system_error>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -165,7 +165,8 @@ bool SmallDisk::IsAllowed() {
 SmallDisk::SmallDisk(std::vector<fs::path> folders) : folders_(std::move(folders)) {
   for (const fs::path& folder : folders_)
     if (::mount("arthro_small_disk", folder.c_str(), "tmpfs", 0, "size=64m") != 0)
-      throw std::runtime_error("no disk could be mounted: " + std::string(std::strerror(errno)));
+      throw std::runtime_error("no disk could be mounted: " +
+                               std::generic_category().message(errno));
 }
 
 SmallDisk::~SmallDisk() {

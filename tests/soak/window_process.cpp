@@ -29,9 +29,10 @@ WindowProcess::WindowProcess(const std::filesystem::path& folder) {
   static std::vector<std::string> environment;  // putenv keeps the pointers
   environment = {"DISPLAY=" + server_->name(), "HOME=" + folder.string(), "LIBGL_ALWAYS_SOFTWARE=1",
                  "LP_NUM_THREADS=1", "MESA_SHADER_CACHE_DISABLE=1"};
+  const std::string scene = ARTHRO_SOURCE_DIR "/resources/demo";
   window_ = std::make_unique<Process>(
-      std::vector<std::string>{ARTHRO_PROGRAM, "practise", ARTHRO_SOURCE_DIR "/resources/demo",
-                               "--hands", "plant", "--script", (folder / "soak.script").string()},
+      std::vector<std::string>{ARTHRO_PROGRAM, "practise", scene, "--hands", "plant", "--script",
+                               (folder / "soak.script").string()},
       environment, folder / "window.err");
   status_ = "/proc/" + std::to_string(window_->number()) + "/status";
 }
