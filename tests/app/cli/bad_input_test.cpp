@@ -190,7 +190,8 @@ TEST(BadInput, RigAndRecordedHands) {
         practise + " --rig " ARTHRO_SOURCE_DIR "/resources/presets/rigs/touch_instrument.json",
         "touch_instrument.json: instrument: this program was built without OpenHaptics", none,
         "DISPLAY=");
-  ExpectRefusal(practise + " --hands " + trace.string(), "first line", none, "DISPLAY=");
+  ExpectRefusal(practise + " --hands " + trace.string(), "neither a log nor a table of hands", none,
+                "DISPLAY=");
   ExpectRefusal(practise + " --hands plant --rig " + rig.string(), "it must be one of", none,
                 "DISPLAY=");
 }

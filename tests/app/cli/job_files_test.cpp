@@ -207,6 +207,7 @@ const std::map<std::string, std::string> kOutputs = {
     {"replay --pictures", "replay @S @t.csv -o @new.csv --pictures @X.demo"},
     {"replay --report", "replay @S @t.csv -o @new.csv --report @X"},
     {"replay --video", "replay @S @t.csv -o @new.csv --video @X.mp4"},
+    {"robot --output", "robot @S --exercise hold -o @X"},
     {"solve --output", "solve @case.json -o @X"},
     {"solve --vtu", "solve @case.json -o @new.json --vtu @X.vtu"},
     {"tetrahedralize --output", "tetrahedralize @s.stl --unit m -o @X.vtu"},

@@ -58,6 +58,7 @@ void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind)
   CommandButton(ui, state, buttons.at_instrument, {-FLT_MIN, 0});
   const std::vector<Ball>& balls = BallsOf(tissue, kind);
   if (!balls.empty()) ListOf(ui, state, balls);
+  ScrollToListOf("##list of balls", balls.empty() ? -1 : state.steps.tissue->ball);
   // A ball that was added just now is not yet in `tissue`.
   const auto chosen = static_cast<std::size_t>(std::max(state.steps.tissue->ball, 0));
   if (!HasChosenBall(state, kind) || chosen >= balls.size()) return;

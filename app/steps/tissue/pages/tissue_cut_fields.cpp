@@ -32,7 +32,7 @@ void MmSlider(Ui& ui, EditorState& state, const char* name, double metres, doubl
 void List(Ui& ui, const char* id, int count, int chosen,
           const std::function<std::string(int)>& name, const std::function<std::string(int)>& words,
           const std::function<void(int)>& choose) {
-  if (count == 0) return;
+  if (count == 0) return ScrollToListOf(id, -1);
   constexpr int kMostRows = 4;
   const float row = ImGui::GetTextLineHeightWithSpacing();
   ImGui::BeginChild(id, {0, static_cast<float>(std::min(count, kMostRows)) * row + ui.Px(14)},
@@ -45,6 +45,7 @@ void List(Ui& ui, const char* id, int count, int chosen,
     ImGui::PopID();
   }
   ImGui::EndChild();
+  ScrollToListOf(id, chosen);
 }
 
 void BrushButton(Ui& ui, EditorState& state, const char* id, CutBrush::Kind kind, float width) {
