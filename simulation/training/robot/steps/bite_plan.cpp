@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -13,10 +12,10 @@
 namespace arthro::simulation {
 namespace {
 
+constexpr double kGrid = 4e-4;      // m, of the points that stand for the tissue
 constexpr double kAround = 2.5e-3;  // m about the regions in which the rest of the tissue counts
 constexpr double kBlocked = 0.5;    // cost of a point in the way of a jaw
-// Distances about a bite, m, in which what is left may hold nothing.
-constexpr std::array kNecks = {0.0, 4e-4, 9e-4};
+constexpr double kNeck = 4e-4;      // m about a bite, in which what is left holds nothing
 constexpr int kRolls = 24;
 constexpr double kMiddles = 7e-4;  // m, between places of a bite
 constexpr double kBeyond = 1e-3;   // m, of such a place outside of the regions
@@ -44,16 +43,19 @@ void Crossings(const SurfaceMesh& skin, double y, double z, std::vector<double>&
 // Links points that lie beside each other on the grid. `numbers`: of the points, by their cells, −1
 // for none; x runs fastest.
 void LinkNeighbours(std::vector<TissuePoint>& points, std::span<const int> numbers,
-                    const std::array<std::size_t, 3>& cells) {
-  const std::array<std::size_t, 3> stride{1, cells[0], cells[0] * cells[1]};
-  for (std::size_t cell = 0; cell < numbers.size(); ++cell) {
-    if (numbers[cell] < 0) continue;
-    TissuePoint& point = points[static_cast<std::size_t>(numbers[cell])];
+                    const std::array<int, 3>& cells) {
+  const std::array<int, 3> stride{1, cells[0], cells[0] * cells[1]};
+  for (int cell = 0; cell < static_cast<int>(numbers.size()); ++cell) {
+    const int own = numbers[static_cast<std::size_t>(cell)];
+    if (own < 0) continue;
+    TissuePoint& point = points[static_cast<std::size_t>(own)];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t at = cell / stride[axis] % cells[axis];
+      const int at = cell / stride[axis] % cells[axis];
       point.is_held = point.is_held || at == 0 || at == cells[axis] - 1;
-      if (at > 0) point.beside[2 * axis] = numbers[cell - stride[axis]];
-      if (at < cells[axis] - 1) point.beside[2 * axis + 1] = numbers[cell + stride[axis]];
+      const int before = cell - stride[axis], after = cell + stride[axis];
+      if (at > 0) point.beside[2 * axis] = numbers[static_cast<std::size_t>(before)];
+      if (at < cells[axis] - 1)
+        point.beside[2 * axis + 1] = numbers[static_cast<std::size_t>(after)];
     }
   }
 }
@@ -99,21 +101,18 @@ std::vector<TissuePoint> PointsOf(const SurfaceMesh& skin, std::span<const Ball>
     low = glm::min(low, ball.centre - (ball.radius + kAround));
     high = glm::max(high, ball.centre + (ball.radius + kAround));
   }
-  std::array<std::size_t, 3> cells{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto part = static_cast<glm::length_t>(axis);
-    cells[axis] =
-        static_cast<std::size_t>(std::max(0.0, std::ceil((high[part] - low[part]) / kPointGrid)));
-  }
+  std::array<int, 3> cells{};
+  for (int axis = 0; axis < 3; ++axis)
+    cells[static_cast<std::size_t>(axis)] =
+        std::max(0, static_cast<int>(std::ceil((high[axis] - low[axis]) / kGrid)));
   std::vector<int> numbers;
   std::vector<double> at;
-  for (std::size_t k = 0; k < cells[2]; ++k)
-    for (std::size_t j = 0; j < cells[1]; ++j) {
-      const double y = low.y + kPointGrid * static_cast<double>(j);
-      const double z = low.z + kPointGrid * static_cast<double>(k);
+  for (int k = 0; k < cells[2]; ++k)
+    for (int j = 0; j < cells[1]; ++j) {
+      const double y = low.y + kGrid * j, z = low.z + kGrid * k;
       Crossings(skin, y + 1e-7, z + 1e-7, at);
-      for (std::size_t i = 0; i < cells[0]; ++i) {
-        const glm::dvec3 p(low.x + kPointGrid * static_cast<double>(i), y, z);
+      for (int i = 0; i < cells[0]; ++i) {
+        const glm::dvec3 p(low.x + kGrid * i, y, z);
         const auto before = std::ranges::count_if(at, [&](double each) { return each < p.x; });
         numbers.push_back(before % 2 == 0 ? -1 : static_cast<int>(points.size()));
         if (before % 2 == 0) continue;
@@ -167,25 +166,18 @@ double GainAt(std::span<const TissuePoint> points, const glm::dvec3& portal, con
   const Rigid3 portal_from_tool = PortalFromTool(portal, tip, 0);
   const Capsule bite{portal_from_tool * shape.bite.a, portal_from_tool * shape.bite.b,
                      shape.bite.radius};
-  const auto in_capsule = [&](double margin) {
-    const Capsule capsule{bite.a, bite.b, bite.radius + margin};
-    std::vector<char> is_in(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i)
-      is_in[i] = static_cast<char>(IsInCapsule(points[i].x, capsule));
-    return is_in;
-  };
-  const std::vector<char> is_bitten = in_capsule(0);
-  if (std::ranges::count(is_bitten, 1) == 0) return 0;
-  // Whether a neck holds is not known beforehand, so that the worse of the cases counts.
-  double least = std::numeric_limits<double>::infinity();
-  for (const double neck : kNecks) {
-    const std::vector<char> is_held = HeldPoints(points, in_capsule(neck));
-    double gain = 0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (is_bitten[i] != 0 || is_held[i] == 0) gain += points[i].is_wanted ? 1 : -rest;
-    least = std::min(least, gain);
+  Capsule torn = bite;
+  torn.radius += kNeck;
+  std::vector<char> is_bitten(points.size()), is_cut(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    is_cut[i] = static_cast<char>(IsInCapsule(points[i].x, torn));
+    is_bitten[i] = static_cast<char>(is_cut[i] != 0 && IsInCapsule(points[i].x, bite));
   }
-  return least;
+  const std::vector<char> is_held = HeldPoints(points, is_cut);
+  double gain = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (is_bitten[i] != 0 || is_held[i] == 0) gain += points[i].is_wanted ? 1 : -rest;
+  return gain;
 }
 
 Bite BestBite(std::span<const TissuePoint> points, std::span<const glm::dvec3> middles,

@@ -16,7 +16,6 @@
 
 namespace arthro::simulation {
 
-inline constexpr double kPointGrid = 4e-4;  // m, between points that stand for the tissue
 struct TissuePoint {
   glm::dvec3 x{0.0};
   bool is_wanted = false;  // in a region

@@ -21,7 +21,7 @@ constexpr double kRests = 0.4;      // s, in which tip and tissue come to rest b
 constexpr double kJaws = 0.3;       // s, in which jaws close or open
 constexpr double kYields = 1.0;     // N at the tip, from which the hand yields
 // Costs of a point of the rest, per point of the regions, from a careful bite to a bold one.
-constexpr std::array kRest = {2.0, 1.0, 0.5, 0.25};
+constexpr std::array kRest = {2.0, 1.0, 0.5};
 constexpr double kTried = 1e-3;   // m about a bite that was not worth it, in which none is tried
 constexpr double kLeast = 2e-10;  // m³; a bite that takes less is not tried there again
 constexpr int kMostBites = 60;
@@ -150,18 +150,13 @@ struct Resection {
     return {};
   }
   // True where the jaws, where they have come to, hold as much of the regions and as little of the
-  // rest as the bite was planned for, and no more of the rest than `most`, m³. Tissue that yields
-  // is not where it was at rest.
-  bool IsWorthIt(double rest, double most) const {
+  // rest as the bite was planned for. Tissue that yields is not where it was at rest.
+  bool IsWorthIt(double rest) const {
     std::vector<TissuePoint> points = Points();
     if (const BodyPicture* picture = Picture())
       MoveWithSkin(points, picture->skin->surface.vertices, picture->positions, portal_from_body);
-    const auto gain = [&](double cost) {
-      return GainAt(points, mind.joint.instrument_portal(),
-                    glm::dvec3(InstrumentOf(mind).drawn_tip), shape, cost);
-    };
-    constexpr double kVolume = kPointGrid * kPointGrid * kPointGrid;  // m³ per point
-    return gain(rest) > 0 && (gain(0) - gain(1)) * kVolume <= most;
+    return GainAt(points, mind.joint.instrument_portal(), glm::dvec3(InstrumentOf(mind).drawn_tip),
+                  shape, rest) > 0;
   }
 };
 
@@ -188,8 +183,7 @@ void TakeBite(Resection& work, const Bite& bite, std::size_t cost, bool is_carel
   if (!mind.hands.Lead(DeviceRole::kInstrument, begin)) return;
   if (SlideTo(mind, pose.depth)) Settle(mind, bite.tip);
   if (!mind.hands.Wait(kRests)) return;
-  const double left = mind.MostOf("taken_outside", "").value_or(1) - TakenSoFar(mind).outside;
-  if (is_careless || work.IsWorthIt(kRest[cost], left)) {
+  if (is_careless || work.IsWorthIt(std::max(kRest[cost], 1.0))) {
     const double before = TakenSoFar(mind).all();
     mind.hands.Close(true, kJaws);
     if (TakenSoFar(mind).all() - before < kLeast)
