@@ -22,6 +22,7 @@
 #include "app/editor/pictures/frame_times.h"
 #include "app/editor/pictures/pictures.h"
 #include "app/editor/scene_views.h"
+#include "app/editor/script_end.h"
 #include "app/editor/script_recorder.h"
 #include "app/editor/tab_walk.h"
 #include "app/files/recovery_copy.h"
@@ -104,18 +105,8 @@ class Editor {
       break;
     }
     recovery_.Remove();
-    if (options_.is_unattended && !state_.dialogs.empty())
-      if (const auto* error = std::get_if<ErrorDialog>(&state_.dialogs.back()))
-        throw Error(
-            Code::kBadData,
-            fmt::format("the script ended with a message: {}: {}", error->title, error->sentence),
-            *options_.script);
     if (!FileOfViews(options_).empty()) WriteViewLayout(FileOfViews(options_), state_.views);
-    if (state_.quit && script_ && script_->state() == ScriptState::kRunning && !script_->at_end())
-      throw Error(
-          Code::kBadData,
-          fmt::format("the window closed before line {} of the script", script_->line_number()),
-          *options_.script);
+    if (script_) RefuseUnfinishedScript(state_, options_, *script_);
   }
 
   // The display is gone: nothing may draw. Returns the end of a sentence.

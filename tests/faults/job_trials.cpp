@@ -113,7 +113,6 @@ Trial JobTrials::Run(const FaultedJob& job, Fault fault, double moment, double s
   if (waits_for_file) disturbance.begins = [&] { return IsWriting(known.earlier); };
   if (fault == Fault::kKilledChild) disturbance.at = 0;
   const ChildRun run = RunDisturbed(CommandOf(job, arguments), disturbance);
-  trial.said = run.err;
 
   if (disk) disk->Free();
   LookAtEnd(job, run, disturbance, trial);
@@ -131,22 +130,11 @@ Trial JobTrials::Run(const FaultedJob& job, Fault fault, double moment, double s
 
 void JobTrials::LookAtEnd(const FaultedJob& job, const ChildRun& run,
                           const Disturbance& disturbance, Trial& trial) const {
-  const auto complain = [&](const std::string& words) { trial.complaints.push_back(words); };
-  if (!disturbance.is_done)
-    trial.end = TrialEnd::kMissed;
-  else if (run.signal != 0)
-    trial.end = TrialEnd::kSignal;
-  else if (run.exit_code == 1)
-    trial.end = TrialEnd::kSentence;
-  if (run.was_too_long)
-    complain(fmt::format("hangs: {:.0f} s", run.wall_s));
-  else if (run.signal != 0 && run.signal != disturbance.signal)
-    complain(fmt::format("ended by signal {}", run.signal));
-  if (run.exit_code > 1) complain(fmt::format("exit code {}", run.exit_code));
+  LookAtRun(run, disturbance, trial);
   if ((!disturbance.is_done || MustBeDone(disturbance.fault)) && !job.is_log &&
       run.exit_code != job.exit_code)
-    complain(fmt::format("exit code {} in place of {}", run.exit_code, job.exit_code));
-  for (const std::string& said : MessageComplaints(run.err, run.exit_code == 1)) complain(said);
+    trial.complaints.push_back(
+        fmt::format("exit code {} in place of {}", run.exit_code, job.exit_code));
 }
 
 void JobTrials::LookAtOutputs(const FaultedJob& job, const Known& known, const ChildRun& run,

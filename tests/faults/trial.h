@@ -26,4 +26,8 @@ struct Trial {
   double force_ms = 0;    // windows: from the fault to the last force
 };
 
+// Sets the end of the trial, and complains of a run that hung, ended by a signal that nobody sent,
+// or said something other than a sentence.
+void LookAtRun(const ChildRun& run, const Disturbance& disturbance, Trial& trial);
+
 }  // namespace arthro::test

@@ -18,7 +18,6 @@
 #include "simulation/device/log/log_format.h"
 #include "simulation/scene/files/scene_io.h"
 #include "tests/faults/folder_contents.h"
-#include "tests/hostile/complaints.h"
 #include "tests/support/own_display.h"
 
 namespace arthro::test {
@@ -119,21 +118,9 @@ ChildRun WindowTrials::Disturb(const Window& window, Disturbance& disturbance, T
   if (!EndsTheProgram(disturbance.fault)) disturbance.end_after = kGoesOn;
   const ChildRun run = RunDisturbed(CommandOf(window.arguments, server.name()), disturbance);
 
-  trial.said = run.err;
+  LookAtRun(run, disturbance, trial);
   if (!disturbance.is_done)
-    trial.end = TrialEnd::kMissed;
-  else if (run.signal != 0)
-    trial.end = TrialEnd::kSignal;
-  else if (run.exit_code == 1)
-    trial.end = TrialEnd::kSentence;
-  const auto complain = [&](const std::string& words) { trial.complaints.push_back(words); };
-  if (run.was_too_long)
-    complain(fmt::format("hangs: {:.0f} s", run.wall_s));
-  else if (run.signal != 0 && run.signal != disturbance.signal)
-    complain(fmt::format("ended by signal {}", run.signal));
-  if (!disturbance.is_done) complain(fmt::format("ended by itself, exit code {}", run.exit_code));
-  if (run.exit_code > 1) complain(fmt::format("exit code {}", run.exit_code));
-  for (const std::string& said : MessageComplaints(run.err, run.exit_code == 1)) complain(said);
+    trial.complaints.push_back(fmt::format("ended by itself, exit code {}", run.exit_code));
   page_->wall_clock_offset = 0;
   page_->is_arm_pulled = 0;
   return run;

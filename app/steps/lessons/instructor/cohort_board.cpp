@@ -207,7 +207,7 @@ void ReadShownRows(EditorState& state, int first, int last) {
   CohortBoard& board = BoardOf(state);
   const auto& exercises = state.document().scene.exercises;
   if (exercises.empty()) return;
-  // Some rows more than are shown, so that a slow scroll asks once in a while.
+  // Rows read beyond those shown on each side, so that a slow scroll asks once in a while.
   constexpr int kMore = 16;
   const auto is_unread = [](const CohortRowOfPage& row) { return row.cells.empty(); };
   const auto begin = board.rows.begin();
