@@ -96,6 +96,8 @@ void Run(const RobotJob& job) {
   for (const std::string& trouble : run.troubles)
     fmt::print(stderr, "note: {}\n", PrintableLine(trouble));
   Print(run.result);
+  if (options.fault != RobotFault::kNone && run.result.outcome == AttemptOutcome::kPassed)
+    fmt::print(stderr, "note: no criterion of {} shows the fault {}\n", exercise.id, job.fault);
   if (job.requires_pass && run.result.outcome != AttemptOutcome::kPassed)
     throw Error(
         Code::kBadData,

@@ -16,7 +16,8 @@ const Exercise& ExerciseWithId(const std::vector<Exercise>& exercises, const std
   throw Error(
       Code::kBadArgument,
       exercises.empty()
-          ? fmt::format("the scene has no exercise {}, and no other; add it in the editor", id)
+          ? fmt::format("the scene has no exercises, so none is called {}; add one in the editor",
+                        id)
           : fmt::format("the scene has no exercise {}; it has {}", id, ids));
 }
 

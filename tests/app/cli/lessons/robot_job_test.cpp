@@ -43,6 +43,15 @@ TEST(RobotJob, ANoviceMissesTheCriterionOfItsFault) {
   EXPECT_NE(novice.err.find("--require-pass"), std::string::npos) << novice.err;
 }
 
+// A fault that finds no place in the exercise, as a body that is dropped where there is none.
+TEST(RobotJob, SaysThatNoCriterionShowsTheFault) {
+  const auto run = test::RunProgram("robot " + kDemo + " --exercise centre-and-hold --fault drops");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("no criterion of centre-and-hold shows the fault drops"),
+            std::string::npos)
+      << run.err;
+}
+
 TEST(RobotJob, RefusesWhatIsNotThere) {
   const auto unknown = test::RunProgram("robot " + kDemo + " --exercise none");
   EXPECT_EQ(unknown.exit_code, 1);
