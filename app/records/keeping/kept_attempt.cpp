@@ -19,7 +19,7 @@ ExerciseRow ExerciseRowOf(const Exercise& exercise) {
   return {HashOf(exercise), exercise.id, exercise.title, CanonicalJson(exercise), exercise.version};
 }
 
-KeptAttempt::KeptAttempt(Records* records, fs::path folder,
+KeptAttempt::KeptAttempt(Records* records, const fs::path& folder,
                          const std::optional<SessionRow>& session, const AttemptPlan& plan)
     : folder_(FolderToWrite(folder)) {
   try {

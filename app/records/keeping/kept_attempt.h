@@ -33,7 +33,7 @@ class KeptAttempt {
  public:
   // `records` null: none are reached. `session`: of the trainee; none: it could not be begun.
   // Nothing is thrown: `notices` says what could not be kept as it should.
-  KeptAttempt(Records* records, std::filesystem::path folder,
+  KeptAttempt(Records* records, const std::filesystem::path& folder,
               const std::optional<SessionRow>& session, const AttemptPlan& plan);
   // An attempt that was not finished keeps its mark, by which it is recovered.
   ~KeptAttempt();

@@ -33,11 +33,11 @@ std::optional<LiveFrames::Loose> LooseOf(const LoadedScene& loaded,
 
 }  // namespace
 
-LiveAttempt::LiveAttempt(const LoadedScene& loaded, std::vector<TargetPlace> targets,
+LiveAttempt::LiveAttempt(const LoadedScene& loaded, const std::vector<TargetPlace>& targets,
                          const DepthField& relief, const ScopeEye& eye)
     : frames_(LooseOf(loaded, targets, relief)),
       taken_(loaded, targets),
-      observer_(loaded, std::move(targets), relief, eye) {}
+      observer_(loaded, targets, relief, eye) {}
 
 void LiveFrames::AfterTick(const Snapshot& snapshot, double dt) noexcept {
   if (!ticks_) ticks_.emplace(snapshot.t - dt);

@@ -51,8 +51,8 @@ class LiveFrames final : public ServoWatch {
 class LiveAttempt {
  public:
   // `relief` and `eye` are those of the practice and outlive this.
-  LiveAttempt(const LoadedScene& loaded, std::vector<TargetPlace> targets, const DepthField& relief,
-              const ScopeEye& eye);
+  LiveAttempt(const LoadedScene& loaded, const std::vector<TargetPlace>& targets,
+              const DepthField& relief, const ScopeEye& eye);
 
   LiveFrames& watch() noexcept { return frames_; }
   // Returns the frames that have ended since the last call, completed; valid until the next call.

@@ -64,7 +64,7 @@ AttemptFrame FrameAt(const RodPose& pose, double view_angle) {
 
 }  // namespace
 
-PoseSearch::PoseSearch(const LoadedScene& loaded, std::vector<TargetPlace> targets,
+PoseSearch::PoseSearch(const LoadedScene& loaded, const std::vector<TargetPlace>& targets,
                        double view_angle, const DepthField& relief, const ScopeEye& eye,
                        double shaft_radius, ScopeEye* trial)
     : optics_(OpticsOf(loaded.scene.scope, loaded.lens)),
@@ -72,7 +72,7 @@ PoseSearch::PoseSearch(const LoadedScene& loaded, std::vector<TargetPlace> targe
       shaft_radius_(shaft_radius),
       count_(static_cast<int>(targets.size())),
       relief_(relief),
-      observer_(loaded, std::move(targets), relief, eye),
+      observer_(loaded, targets, relief, eye),
       trial_(trial) {
   for (std::size_t i = 0; i < loaded.scene.tissues.size() && i < loaded.surfaces.size(); ++i)
     tissues_.emplace_back(OrEmpty(loaded.surfaces[i]), loaded.scene.tissues[i].pose);

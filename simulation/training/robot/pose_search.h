@@ -54,7 +54,7 @@ class PoseSearch {
   // At most kMostTargets. `relief` and `eye` are those of the practice and outlive this. `trial`:
   // another eye, which is led to each pose: one beside its tip is no pose to see from; null: no
   // such test.
-  PoseSearch(const LoadedScene& loaded, std::vector<TargetPlace> targets, double view_angle,
+  PoseSearch(const LoadedScene& loaded, const std::vector<TargetPlace>& targets, double view_angle,
              const DepthField& relief, const ScopeEye& eye, double shaft_radius = 2e-3,
              ScopeEye* trial = nullptr);
 
