@@ -2,7 +2,7 @@
 // happens to an attempt].
 #include "app/cli/records/records_job.h"
 
-#include <cstdlib>
+#include <array>
 #include <pwd.h>
 #include <unistd.h>
 
@@ -18,7 +18,7 @@ std::string RecordsPlace::Connection() const {
 }
 
 std::shared_ptr<RecordsPlace> AddPlace(CLI::App& job) {
-  const auto place = std::make_shared<RecordsPlace>();
+  auto place = std::make_shared<RecordsPlace>();
   job.add_option("--records", place->connection,
                  "Records: a file, or postgresql://USER@HOST/NAME. Those of this user lie in "
                  "~/.local/share/arthroscene/records.sqlite.")
@@ -27,7 +27,10 @@ std::shared_ptr<RecordsPlace> AddPlace(CLI::App& job) {
 }
 
 std::string UserWords() {
-  const passwd* user = ::getpwuid(::geteuid());
+  passwd entry{};
+  passwd* user = nullptr;
+  std::array<char, 4096> words{};
+  ::getpwuid_r(::geteuid(), &entry, words.data(), words.size(), &user);
   return user != nullptr ? user->pw_name : "unknown";
 }
 
