@@ -26,15 +26,15 @@ double MedianOf(std::vector<double> values) {
 }
 
 // Brightness at the places that distinguish the kinds of target, from 0 (darkest nearby) to 1
-// (brightest nearby): at a lattice point, half way between two, and in the cells of either colour
-// of a chessboard.
+// (brightest nearby): at a lattice point, half way between two, in the directions i and j, and in
+// the cells of either colour of a chessboard.
 struct CellLook {
-  double point, between, cell_even, cell_odd;
+  double point, between_i, between_j, cell_even, cell_odd;
 };
 
 // Takes medians over the cells, so that highlights and shadows on some of them have no effect.
 std::optional<CellLook> LookOf(const cv::Mat& picture, const Lattice& lattice) {
-  std::vector<double> point, between, cells[2];
+  std::vector<double> point, between_i, between_j, cells[2];
   const auto At = [&](const cv::Point2d& p) {
     const int x = std::clamp(static_cast<int>(std::lround(p.x)), 0, picture.cols - 1);
     const int y = std::clamp(static_cast<int>(std::lround(p.y)), 0, picture.rows - 1);
@@ -50,34 +50,38 @@ std::optional<CellLook> LookOf(const cv::Mat& picture, const Lattice& lattice) {
       continue;
     // Two neighbouring cells: one of either colour, under nearly the same light.
     const double here = 0.25 * (At(p) + At(right->second) + At(down->second) + At(far->second));
-    const double middle = 0.5 * (At(0.5 * (p + down->second)) + At(0.5 * (p + right->second)));
+    const double middle_i = At(0.5 * (p + right->second)), middle_j = At(0.5 * (p + down->second));
     const double cell = At(0.25 * (p + right->second + down->second + far->second));
     const double other = At(0.25 * (p + left->second + down->second + low->second));
-    const double dark = std::min({here, middle, cell, other});
-    const double bright = std::max({here, middle, cell, other});
+    const double dark = std::min({here, middle_i, middle_j, cell, other});
+    const double bright = std::max({here, middle_i, middle_j, cell, other});
     if (!(bright - dark > 0.03)) continue;  // too little contrast to judge
     const auto Share = [&](double value) { return (value - dark) / (bright - dark); };
     const int colour = (i + j) & 1;
     point.push_back(Share(here));
-    between.push_back(Share(middle));
+    between_i.push_back(Share(middle_i));
+    between_j.push_back(Share(middle_j));
     cells[colour].push_back(Share(cell));
     cells[1 - colour].push_back(Share(other));
   }
   if (point.size() < kFewestCells) return std::nullopt;
-  return CellLook{MedianOf(point), MedianOf(between), MedianOf(cells[0]), MedianOf(cells[1])};
+  return CellLook{MedianOf(point), MedianOf(between_i), MedianOf(between_j), MedianOf(cells[0]),
+                  MedianOf(cells[1])};
 }
 
 bool Agrees(TargetKind kind, const CellLook& look) {
   const double low = std::min(look.cell_even, look.cell_odd),
                high = std::max(look.cell_even, look.cell_odd);
+  const double darker = std::min(look.between_i, look.between_j),
+               brighter = std::max(look.between_i, look.between_j);
   switch (kind) {
     case TargetKind::kChessboard:  // the points and edges lie between black and white
-      return high - low > 0.7 && look.between > 0.15 && look.between < 0.85 && look.point > 0.1 &&
+      return high - low > 0.7 && darker > 0.15 && brighter < 0.85 && look.point > 0.1 &&
              look.point < 0.9;
-    case TargetKind::kLines:  // dark along every edge
-      return low > 0.75 && look.between < 0.6 && look.point < 0.35;
+    case TargetKind::kLines:  // dark along the edges of both directions
+      return low > 0.75 && brighter < 0.6 && look.point < 0.35;
     case TargetKind::kDots:  // dark at the points only
-      return low > 0.75 && look.between > 0.75 && look.point < 0.35;
+      return low > 0.75 && darker > 0.75 && look.point < 0.35;
     case TargetKind::kNone:
       break;
   }
@@ -162,10 +166,13 @@ TargetView DetectTarget(const cv::Mat& raw, const LensCircle& circle,
   for (const TargetKind kind : kKinds) {
     if (!Wanted(kind, options.target)) continue;
     for (const double sigma : {1.2, 2.2, 4.0}) {
+      const auto looks_like_it = [&](const Lattice& lattice) {
+        const auto look = LookOf(calm, lattice);
+        return look && Agrees(kind, *look);
+      };
       const Lattice rough = GrowLattice(CandidatePoints(picture, kind, std::max(1.0, size * sigma)),
-                                        picture.size(), options.smallest_step);
-      const auto look = LookOf(calm, rough);
-      if (!look || !Agrees(kind, *look)) continue;
+                                        picture.size(), options.smallest_step, looks_like_it);
+      if (rough.empty()) continue;
       rough_most = std::max(rough_most, rough.size());
       Lattice refined = Refined(picture, kind, rough, circle, options.smallest_step);
       if (refined.size() <= best.size()) continue;

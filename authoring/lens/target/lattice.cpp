@@ -15,8 +15,8 @@ using Place = std::pair<int, int>;
 
 constexpr std::array<Place, 4> kSides = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 constexpr double kGuessTolerance =
-    0.28;  // share of a step, tolerance about the guess of a neighbour
-constexpr int kSeeds = 12;
+    0.28;                   // share of a step, tolerance about the guess of a neighbour
+constexpr int kSeeds = 24;  // most that are tried
 
 Place Plus(const Place& a, const Place& b, int times = 1) {
   return {a.first + times * b.first, a.second + times * b.second};
@@ -124,8 +124,7 @@ class Grower {
   Grower(const std::vector<cv::Point2d>& points, const PointField& field, double smallest_step)
       : points_(points), field_(field), smallest_step_(smallest_step) {}
 
-  // Marks the candidates taken in `used`, so that no later seed begins there.
-  Lattice Grow(const Seed& seed, std::vector<char>& used) {
+  Lattice Grow(const Seed& seed) {
     Put({0, 0}, seed.centre);
     for (int k = 0; k < 4; ++k) Put(kSides[k], seed.sides[k]);
     // Steps over a missing point are less certain, so they wait until no plain step is left.
@@ -137,9 +136,10 @@ class Grower {
       for (const Place& side : kSides) Step(place, side, times);
       if (times == 1) ends_.push_back(place);
     }
-    for (const int n : taken_) used[n] = 1;
     return lattice_;
   }
+
+  const std::set<int>& taken() const { return taken_; }
 
  private:
   void Put(const Place& place, int n) {
@@ -250,7 +250,7 @@ void PruneLattice(Lattice& lattice, double tolerance) {
 }
 
 Lattice GrowLattice(const std::vector<cv::Point2d>& candidates, cv::Size picture,
-                    double smallest_step) {
+                    double smallest_step, const std::function<bool(const Lattice&)>& fits) {
   constexpr std::size_t kFewest = 9;
   const PointField field(candidates, picture);
   std::vector<Seed> seeds;
@@ -264,11 +264,13 @@ Lattice GrowLattice(const std::vector<cv::Point2d>& candidates, cv::Size picture
   for (const Seed& seed : seeds) {
     if (used[seed.centre] || tried == kSeeds) continue;
     ++tried;
-    Lattice lattice = Grower(candidates, field, smallest_step).Grow(seed, used);
+    Grower grower(candidates, field, smallest_step);
+    Lattice lattice = grower.Grow(seed);
     PruneLattice(lattice, 0.25);
+    if (lattice.size() < kFewest || !fits(lattice)) continue;
+    for (const int n : grower.taken()) used[n] = 1;  // no later seed begins there
     if (lattice.size() > largest.size()) largest = std::move(lattice);
   }
-  if (largest.size() < kFewest) largest.clear();
   return largest;
 }
 

@@ -3,6 +3,7 @@
 // Ignores candidates that match no prediction and steps over a missing point or line.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -13,10 +14,11 @@ namespace arthro::authoring {
 
 using Lattice = std::map<std::pair<int, int>, cv::Point2d>;  // (i, j) -> pixel
 
-// Largest lattice found; empty when none has at least 3 x 3 points. Growth stops where a step is
-// shorter than `smallest_step` px, because closer points are counted wrongly.
+// Largest lattice found that `fits`; empty when none of at least 3 x 3 points does. A lattice whose
+// steps go along diagonals of the target has the same points and does not look like it. Growth
+// stops where a step is shorter than `smallest_step` px, because closer points are counted wrongly.
 Lattice GrowLattice(const std::vector<cv::Point2d>& candidates, cv::Size picture,
-                    double smallest_step);
+                    double smallest_step, const std::function<bool(const Lattice&)>& fits);
 
 // Distance to the nearest neighbour on the lattice, px; 0 without a neighbour.
 double StepAt(const Lattice& lattice, const std::pair<int, int>& place);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -30,9 +31,10 @@ test::RayOfPixel RaysOf(const Lens& lens) {
 
 BoardPlace Tilted(double distance) { return {0.3, -0.2, 0.2, {0.13, -0.21, distance}}; }
 
-// Largest distance of a labelled point from the nearest true crossing. The lattice's origin and
+// Distance from the nearest true crossing that a share of the points keep. The lattice's origin and
 // quarter turns are free. A wrong label would also break the fit, which has its own test.
-double UsualDistance(const TargetView& view, const Lens& lens, const BoardPlace& place) {
+double UsualDistance(const TargetView& view, const Lens& lens, const BoardPlace& place,
+                     double share = 0.95) {
   const glm::dmat3 turn = test::TurnOf(place);
   std::vector<double> distances;
   for (const LatticePoint& point : view.points) {
@@ -47,7 +49,7 @@ double UsualDistance(const TargetView& view, const Lens& lens, const BoardPlace&
     distances.push_back(nearest);
   }
   std::sort(distances.begin(), distances.end());
-  return distances[distances.size() * 19 / 20];
+  return distances[static_cast<std::size_t>(share * static_cast<double>(distances.size()))];
 }
 
 // 0.3 px for 19 points of 20; the fit removes a stray point at the rim.
@@ -85,6 +87,33 @@ TEST(DetectTarget, AGlintAndAMissingLineCostOnlyTheirPoints) {
   const TargetView view = DetectTarget(picture, lens.circle, {});
   EXPECT_EQ(view.kind, TargetKind::kLines);
   EXPECT_GE(view.points.size(), 40u);
+}
+
+// Noise makes candidates along thin lines and hides some crossings, so that a lattice may grow
+// along diagonals or between crossings: it has as many points and is not the target's.
+TEST(DetectTarget, ThinLinesInNoiseGiveTheLatticeOfTheTarget) {
+  Lens lens = test::RoundLens(400, 320, 233, 201, 158.5, 150);
+  lens.model = LensModel::kEquisolid;
+  lens.aspect = 1;
+  for (int seed = 1; seed <= 8; ++seed) {
+    const BoardPlace place{0.39 + 0.01 * seed, -0.14, 0.14 + 0.01 * seed, {0.1 * seed, 0.4, 10.5}};
+    cv::Mat picture;
+    BoardPicture({400, 320}, RaysOf(lens), place, test::LinesAt).convertTo(picture, CV_32F);
+    cv::RNG random(static_cast<std::uint64_t>(seed));
+    for (int y = 0; y < picture.rows; ++y)
+      for (int x = 0; x < picture.cols; ++x) {
+        float& value = picture.at<float>(y, x);
+        const double off = std::hypot(x - lens.circle.cx, y - lens.circle.cy) / lens.circle.r;
+        value = static_cast<float>(value * (0.9 - 0.35 * off * off) + random.gaussian(5));
+      }
+    picture.convertTo(picture, CV_8U);
+    const TargetView view = DetectTarget(picture, lens.circle, {});
+    EXPECT_EQ(view.kind, TargetKind::kLines) << "seed " << seed << ": " << view.reason;
+    EXPECT_GE(view.points.size(), 120u) << "seed " << seed;
+    if (!view.points.empty()) {
+      EXPECT_LT(UsualDistance(view, lens, place, 0.5), 0.3) << "seed " << seed;
+    }
+  }
 }
 
 TEST(DetectTarget, SaysWhyThereIsNone) {
