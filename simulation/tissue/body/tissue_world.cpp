@@ -5,6 +5,7 @@
 
 #include "simulation/core/background_worker.h"
 #include "simulation/core/error.h"
+#include "simulation/core/free_memory.h"
 #include "simulation/core/process_cost.h"
 
 namespace arthro::simulation {
@@ -214,6 +215,7 @@ void TissueWorld::Reset() {
   for (Impl::Held& held : impl_->bodies) held.body.Reset();
   for (Impl::HeldLayer& held : impl_->layers) held.skin.Release();
   for (ImplicitBody& body : impl_->implicit) body.Reset();
+  ReturnFreeMemory();  // all that the cuts took
 }
 
 }  // namespace arthro::simulation
