@@ -105,11 +105,9 @@ std::optional<double> RobotMind::MostOf(const std::string& metric, const std::st
   return std::nullopt;
 }
 
-PoseSearch RobotMind::Search(std::vector<TargetPlace> places) const {
+PoseSearch RobotMind::Search(const std::vector<TargetPlace>& places) const {
   constexpr double kShaft = 2.5e-3;  // m; a tube that touches nothing, also where it trembles
-  return {joint.loaded(), std::move(places), joint.view_angle(),
-          joint.relief(), joint.eye(),       kShaft,
-          &trial};
+  return {joint.loaded(), places, joint.view_angle(), joint.relief(), joint.eye(), kShaft, &trial};
 }
 
 void RobotMind::Trouble(const std::string& sentence) {

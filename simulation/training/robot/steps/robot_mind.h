@@ -27,7 +27,7 @@ struct RobotMind {
   double RadiusOf(int target) const;
   // Largest value of a criterion, or nullopt.
   std::optional<double> MostOf(const std::string& metric, const std::string& part) const;
-  PoseSearch Search(std::vector<TargetPlace> places) const;
+  PoseSearch Search(const std::vector<TargetPlace>& places) const;
   void Trouble(const std::string& sentence);
 };
 

@@ -20,6 +20,7 @@ constexpr double kFarthestLook = 0.1;  // m
 
 std::vector<glm::dvec3> PathOf(const RobotMind& mind, const std::vector<std::string>& ids) {
   std::vector<glm::dvec3> path;
+  path.reserve(ids.size());
   for (const std::string& id : ids) path.push_back(mind.PlaceNow(TargetIndex(mind.exercise(), id)));
   return path;
 }
@@ -57,10 +58,11 @@ std::optional<RodPose> PoseForPath(const PoseSearch& search) {
 
 PoseSearch SearchForPath(const RobotMind& mind, std::span<const glm::dvec3> path) {
   std::vector<TargetPlace> places;
+  places.reserve(kMostTargets);
   for (int i = 0; i < kMostTargets; ++i)
     places.push_back(
         TargetInBall(PointAt(path, LengthOf(path) * i / (kMostTargets - 1)), kPieceLength));
-  return mind.Search(std::move(places));
+  return mind.Search(places);
 }
 
 // A point beside a path, as seen from the lens.

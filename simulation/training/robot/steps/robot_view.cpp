@@ -165,7 +165,7 @@ void Do(RobotMind& mind, const PeriscopeStep& step) {
   std::vector<TargetPlace> places;
   for (const int target : TargetsOf(mind.exercise(), step))
     places.push_back(PlaceOfTarget(mind, target));
-  const std::vector<RodPose> ring = RingPoses(mind.Search(std::move(places)), step);
+  const std::vector<RodPose> ring = RingPoses(mind.Search(places), step);
   if (ring.empty())
     return mind.Trouble(
         fmt::format("no place of the tip sees the whole ring with {}", AngleWords(mind)));
@@ -184,6 +184,7 @@ void LookAtWork(RobotMind& mind, const std::vector<int>& targets, double farthes
   constexpr double kLifted = 1e-2;  // m, of a tip on its way to a target
   constexpr double kUnseen = 0.3;   // cost of a way that is not seen, in radii of the picture
   std::vector<TargetPlace> places;
+  places.reserve(targets.size());
   for (const int target : targets) places.push_back(PlaceOfTarget(mind, target));
   const int count = static_cast<int>(places.size());
   if (count == 0 || 2 * count > kMostTargets) return;
@@ -192,7 +193,7 @@ void LookAtWork(RobotMind& mind, const std::vector<int>& targets, double farthes
     const glm::dvec3 x = mind.PlaceNow(target);
     places.push_back(TargetInBall(x + kLifted * glm::normalize(portal - x), kPieceLength));
   }
-  const PoseSearch search = mind.Search(std::move(places));
+  const PoseSearch search = mind.Search(places);
   const auto cost_of = [&](const RodPose& pose) -> std::optional<double> {
     const Observation seen = search.See(pose);
     double worst = 0, unseen = 0;
