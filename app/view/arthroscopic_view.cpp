@@ -362,9 +362,12 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   else if (!picture.plain)
     p.lens_pass.DrawFlecks(p.window, picture, frame.light_reach, p.rays);
   p.EndStage(&PictureCost::disturbances, begin);
-  if (p.has_camera)
-    p.camera_pass.Draw(p.window, picture, *p.finished().GetColorAttachmentAsTextureObject(0),
+  if (p.has_camera) {
+    Picture seen = picture;
+    if (p.backdrop->is_footage()) seen.camera = OverFootage(*picture.camera);
+    p.camera_pass.Draw(p.window, seen, *p.finished().GetColorAttachmentAsTextureObject(0),
                        occlusion, size);
+  }
   p.EndStage(&PictureCost::camera, begin);
 }
 
