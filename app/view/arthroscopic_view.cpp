@@ -173,6 +173,10 @@ void ArthroscopicView::Parts::ShowTool(const Picture& picture, const LensFrame& 
   const Pose part = MovingPart(tool_mesh, instrument.opening, instrument.turn);
   tool.SetPose(pose);
   tool.SetLength(glm::distance(instrument.proxy, instrument.portal));
+  // The mesh of a probe begins at the shaft. A hook that points away from the lens comes first.
+  const glm::dvec3 hook = pose.quaternion * glm::dvec3(0.0, 1.0, 0.0);
+  tool.SetReversed(instrument.kind == simulation::ToolKind::kProbe &&
+                   glm::dot(hook, pose.position - picture.view.tip) > 0.0);
   moving.SetPose({pose * part.position, pose.quaternion * part.quaternion, 1.0});
   for (LensModel* model : {&tool, &moving}) {
     model->SetFrame(frame);

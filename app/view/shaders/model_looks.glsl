@@ -20,7 +20,9 @@ const float kGrooveSlope = 0.022;
 const float kGreyShare = 0.7, kLeastAround = 0.25;
 // The outline of a rod with 20 sides is drawn as the circle inside it: the squared sine of half the
 // angle of a side, and the px that this may cut off.
-const float kFacet = 0.0245, kMostFacet = 2.5, kLeastSlope = 1e-6;
+const float kFacet = 0.0245, kMostFacet = 2.5;
+const float kLeastSlope = 1e-6;
+const float kHollow = 20.0;  // 1/m, curvature from which a fold is hollow
 const float kDarkFrom = -0.55, kLitFrom = 0.75;  // part of the mirrored direction that points ahead
 const float kDark = 0.10, kLit = 0.9;
 const float kEdgeGain = 0.5, kEdgePower = 4.0;
