@@ -54,12 +54,14 @@
   vec3 linear = (body + mirroredShare * wet) * rodShade(lensPoint) + mirroredShare * mirrored;
 #else
   // Towards the outline of a round part the squared cosine falls by 2 / radius per length, which
-  // gives the share of the pixel. A flat or hollow part is whole up to its outline.
+  // gives the share of the pixel. A flat part, and the hollow of the hook, is whole up to its
+  // outline.
   float cosine = dot(normal, toLens);
   vec3 acrossX = dFdx(lensPoint), acrossY = dFdy(lensPoint);
-  vec2 curved = vec2(dot(dFdx(normal), acrossX) / dot(acrossX, acrossX),
-                     dot(dFdy(normal), acrossY) / dot(acrossY, acrossY));
-  float roundness = min(curved.x, curved.y) < -kHollow ? 0.0 : max(curved.x, curved.y);
+  float roundness = max(dot(dFdx(normal), acrossX) / dot(acrossX, acrossX),
+                        dot(dFdy(normal), acrossY) / dot(acrossY, acrossY));
+  roundness *= max(smoothstep(kHollowEnd, kHollowFades, distance(modelPoint.yz, kHollow)),
+                   1.0 - etchedRings);
   float slope =
       max(4.0 * lensScale / windowRadius * lensDistance * roundness, kLeastSlope);
   float outline = cosine * abs(cosine) / slope - min(kFacet / slope, kMostFacet);
