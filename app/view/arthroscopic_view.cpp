@@ -173,6 +173,10 @@ void ArthroscopicView::Parts::ShowTool(const Picture& picture, const LensFrame& 
   const Pose part = MovingPart(tool_mesh, instrument.opening, instrument.turn);
   tool.SetPose(pose);
   tool.SetLength(glm::distance(instrument.proxy, instrument.portal));
+  // The mesh of a probe begins at the shaft. A hook that points away from the lens comes first.
+  const glm::dvec3 hook = pose.quaternion * glm::dvec3(0.0, 1.0, 0.0);
+  tool.SetReversed(instrument.kind == simulation::ToolKind::kProbe &&
+                   glm::dot(hook, pose.position - picture.view.tip) > 0.0);
   moving.SetPose({pose * part.position, pose.quaternion * part.quaternion, 1.0});
   for (LensModel* model : {&tool, &moving}) {
     model->SetFrame(frame);
@@ -362,9 +366,12 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   else if (!picture.plain)
     p.lens_pass.DrawFlecks(p.window, picture, frame.light_reach, p.rays);
   p.EndStage(&PictureCost::disturbances, begin);
-  if (p.has_camera)
-    p.camera_pass.Draw(p.window, picture, *p.finished().GetColorAttachmentAsTextureObject(0),
+  if (p.has_camera) {
+    Picture seen = picture;
+    if (p.backdrop->is_footage()) seen.camera = OverFootage(*picture.camera);
+    p.camera_pass.Draw(p.window, seen, *p.finished().GetColorAttachmentAsTextureObject(0),
                        occlusion, size);
+  }
   p.EndStage(&PictureCost::camera, begin);
 }
 

@@ -56,6 +56,7 @@ class BackdropProp : public vtkProp {
   double gain() const { return gain_; }
   double relight() const { return backdrop_.relight; }
   Medium medium() const { return backdrop_.medium; }
+  bool is_footage() const { return !backdrop_.footage.empty(); }
   // Height of the lowest step that the error of the depth map does not explain, m; 0: not known.
   double least_side() const { return least_side_; }
   // Binds the relief for the models of the present picture, until EndContact.

@@ -118,10 +118,7 @@ void LensModel::Assemble() {
 void LensModel::SetSurface(const SurfaceMesh& surface, std::span<const std::uint8_t> fresh) {
   triangles_ = surface.triangles;
   const auto count = static_cast<vtkIdType>(surface.vertices.size());
-  vtkNew<vtkCellArray> polys;
-  for (const auto& triangle : triangles_)
-    polys->InsertNextCell({triangle[0], triangle[1], triangle[2]});
-  data_->SetPolys(polys);
+  TakeTriangles();
   points_->SetNumberOfPoints(count);
   normal_array_->SetNumberOfTuples(count);
   SetShape(surface.vertices);
@@ -131,6 +128,23 @@ void LensModel::SetSurface(const SurfaceMesh& surface, std::span<const std::uint
   // The inside of a closed surface is never seen; culling saves half the work.
   is_closed_ = IsClosedAndOutward(surface);
   actor_->GetProperty()->SetBackfaceCulling(is_closed_ ? 1 : 0);
+}
+
+void LensModel::TakeTriangles() {
+  vtkNew<vtkCellArray> polys;
+  const auto count = triangles_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& triangle = triangles_[is_reversed_ ? count - 1 - i : i];
+    polys->InsertNextCell({triangle[0], triangle[1], triangle[2]});
+  }
+  data_->SetPolys(polys);
+}
+
+void LensModel::SetReversed(bool is_reversed) {
+  if (is_reversed == is_reversed_) return;
+  is_reversed_ = is_reversed;
+  TakeTriangles();
+  data_->Modified();
 }
 
 void LensModel::SetLook(const simulation::TissueLook& look, const SurfaceMesh& whole) {

@@ -74,6 +74,9 @@ class LensModel {
   void SetLength(double length);
   // Steel only: the probe's marks every 5 mm.
   void SetEtched(bool is_etched);
+  // Draws the triangles in reverse order. Outlines are blended over what was drawn before, so the
+  // part of a model that lies behind another one comes first.
+  void SetReversed(bool is_reversed);
   // The surface as the camera's gain meters it in a light of this colour; valid until it changes.
   MeteredSurface Metered(const glm::dvec3& light_colour) const;
 
@@ -90,11 +93,12 @@ class LensModel {
   Look look_;
   bool has_lens_ = false;  // not the equisolid lens
   ReliefContact contact_;
-  bool is_closed_ = false;
+  bool is_closed_ = false, is_reversed_ = false;
   Pose pose_;
   glm::dvec3 colour_{1.0};
   simulation::TissueLook tissue_look_;
   TissueGrain grain_;
+  void TakeTriangles();
   std::vector<std::array<int, 3>> triangles_;
   std::vector<glm::dvec3> normals_;
   vtkNew<vtkPoints> points_;

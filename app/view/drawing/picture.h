@@ -68,4 +68,13 @@ inline double FlecksIn(const Backdrop& backdrop) {
   return backdrop.medium == Medium::kSaline ? kUsualFlecks : 0.0;
 }
 
+// The camera over footage: its frames have noise of their own, and resampling into the panorama and
+// out of it has taken some of their sharpness [method.md, Camera].
+inline constexpr double kGrainOverFootage = 0.5, kSharpeningOverFootage = 1.1;
+inline LensCamera OverFootage(LensCamera camera) {
+  camera.grain *= kGrainOverFootage;
+  camera.sharpening *= kSharpeningOverFootage;
+  return camera;
+}
+
 }  // namespace arthro::app

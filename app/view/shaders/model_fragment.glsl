@@ -53,7 +53,19 @@
   vec3 mirrored = surround * (kMirrored + kGrazing * glance * glance);
   vec3 linear = (body + mirroredShare * wet) * rodShade(lensPoint) + mirroredShare * mirrored;
 #else
-  if (-modelPoint.z > rodLength) discard;
+  // Towards the outline of a round part the squared cosine falls by 2 / radius per length, which
+  // gives the share of the pixel. A flat part, and the hollow of the hook, is whole up to its
+  // outline.
+  float cosine = dot(normal, toLens);
+  vec3 acrossX = dFdx(lensPoint), acrossY = dFdy(lensPoint);
+  float roundness = max(dot(dFdx(normal), acrossX) / dot(acrossX, acrossX),
+                        dot(dFdy(normal), acrossY) / dot(acrossY, acrossY));
+  roundness *= max(smoothstep(kHollowEnd, kHollowFades, distance(modelPoint.yz, kHollow)),
+                   1.0 - etchedRings);
+  float slope =
+      max(4.0 * lensScale / windowRadius * lensDistance * roundness, kLeastSlope);
+  float outline = cosine * abs(cosine) / slope - min(kFacet / slope, kMostFacet);
+  if (-modelPoint.z > rodLength || outline <= 0.0) discard;
   float ring = -modelPoint.z / kRingDistance;
   float etched = etchedRings > 0.5 && ring > kFirstRing && ring < kLastRing
                      ? 1.0 - smoothstep(kRingHalf, kRingHalfSoft, abs(ring - round(ring)))
@@ -89,6 +101,6 @@
   gl_FragData[0] = vec4(shown, contactShare(height));
 #else
   // Steel beside the lens is far out of focus: it passes into what is behind it.
-  gl_FragData[0] =
-      vec4(shown, contactShare(height) * smoothstep(kGoneAt, kSolidFrom, lensDistance));
+  gl_FragData[0] = vec4(shown, contactShare(height) * min(outline, 1.0) *
+                                   smoothstep(kGoneAt, kSolidFrom, lensDistance));
 #endif

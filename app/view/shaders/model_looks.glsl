@@ -18,6 +18,13 @@ const float kGoneAt = 0.0005, kSolidFrom = 0.002;  // m from the lens
 const float kGrooveRate = 9000.0, kGrooveAround = 300.0;  // 1/m
 const float kGrooveSlope = 0.022;
 const float kGreyShare = 0.7, kLeastAround = 0.25;
+// The outline of a rod with 20 sides is drawn as the circle inside it: the squared sine of half the
+// angle of a side, and the px that this may cut off.
+const float kFacet = 0.0245, kMostFacet = 2.5;
+const float kLeastSlope = 1e-6;
+// m: middle of the probe's bend (probe_mesh.cpp), and a ball that holds its inner side.
+const vec2 kHollow = vec2(1.2e-3, -1.95e-3);
+const float kHollowEnd = 1.2e-3, kHollowFades = 1.5e-3;
 const float kDarkFrom = -0.55, kLitFrom = 0.75;  // part of the mirrored direction that points ahead
 const float kDark = 0.10, kLit = 0.9;
 const float kEdgeGain = 0.5, kEdgePower = 4.0;

@@ -266,6 +266,29 @@ TEST_F(CameraPassView, GrainIsAtMostItsAmplitudeAndHasNoMean) {
   EXPECT_EQ(grainy.at(0, 0)[1], 0) << "the surround stays black";
 }
 
+TEST_F(CameraPassView, GrainOverFootageIsHalf) {
+  LensCamera camera = kNothing;
+  camera.grain = 8;
+  const Picture picture = Forward(Grey(256, 256, 120), camera);
+  const auto most = [&] {
+    const ColourImage grainy = Drawn(picture);
+    int low = 255, high = 0;
+    for (int y = 78; y < 178; ++y)
+      for (int x = 78; x < 178; ++x) {
+        low = std::min(low, int(grainy.at(x, y)[1]));
+        high = std::max(high, int(grainy.at(x, y)[1]));
+      }
+    return high - low;
+  };
+  const int computed = most();
+  Backdrop footage = PlainBackdrop(256, 256);
+  footage.footage = "footage.json";
+  view_->SetBackdrop(Grey(256, 256, 120), {}, footage);
+  const int filmed = most();
+  EXPECT_GT(computed, 12);
+  EXPECT_NEAR(filmed, computed / 2, 1);
+}
+
 // The live picture has one ray per pixel. Its edges are held against 16 rays per pixel.
 TEST_F(CameraPassView, StairsOfModelsAreSmoothed) {
   const LoadedScene loaded = MakeViewScene();

@@ -12,6 +12,7 @@
 #include "app/view/shaders/constants.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/mesh/vertex_normals.h"
+#include "tests/app/view/lit_scene.h"
 #include "tests/app/view/view_scene.h"
 #include "tests/support/compare_pictures.h"
 #include "tests/support/view/reference_tracer.h"
@@ -205,6 +206,37 @@ TEST_F(ModelsView, ShaftBesideTheLensFades) {
   EXPECT_GT(half, 3);
   // The shaft still shades the tissue behind it.
   EXPECT_LT(gone, half);
+}
+
+// A shaft moves across the view by an eighth of a pixel per picture, at several rolls of its sides.
+// A pixel at its outline takes an eighth of the step of colour then; a third allows for the slope
+// of the light there. Without smooth outlines it takes the whole step at once.
+TEST_F(ModelsView, OutlineOfAShaftThatCreepsChangesLittleByLittle) {
+  LoadedScene loaded = MakeViewScene(256, 256);
+  loaded.scene.backdrop.projection.focal_px = 110;
+  view_->SetBackdrop(Grey(256, 256, 240), {}, loaded.scene.backdrop);
+  Picture picture = PictureFromPose({0, 0, 0, 0.008}, 0.0, 1.4);
+  constexpr double kPixel = 0.0145 * 2 * 0.3429 / 100;  // m, at the shaft
+  for (const double roll : {0.0, 0.08, 0.16, 0.24}) {
+    ColourImage before;
+    int most = 0, step = 0;
+    for (int i = 0; i <= 16; ++i) {
+      const double y = kPixel * i / 8;
+      picture.instrument = InstrumentView{{0.03, y, 0.0225}, {-0.02, y, 0.0225}, roll};
+      view_->Render(picture, 200);
+      ColourImage now = view_->ReadPixels();
+      if (i > 0)
+        for (int row = 80; row < 120; ++row)
+          for (int column = 80; column < 120; ++column) {
+            most = std::max(most, std::abs(now.at(column, row)[1] - before.at(column, row)[1]));
+            step = std::max(step, std::abs(now.at(column, row)[1] - now.at(column, row + 1)[1]));
+          }
+      before = std::move(now);
+    }
+    std::printf("roll %.2f: %d levels at most, of a step of %d\n", roll, most, step);
+    EXPECT_GT(step, 40);
+    EXPECT_LT(3 * most, step) << roll;
+  }
 }
 
 // A ball that faces the lamp shows its highlight in gas; in saline a ninetieth of it is left, which
