@@ -43,6 +43,14 @@ constexpr double kCellSteps = 0.75;
 // cell counts as smooth.
 constexpr double kSmoothBend = 0.02;
 
+// Texels of three values with a fourth one, which is not read: a software rasteriser gathers four
+// floats as one vector, and three one by one.
+std::vector<float> InFours(const std::vector<float>& threes) {
+  std::vector<float> fours(threes.size() / 3 * 4);
+  for (std::size_t i = 0; i < threes.size() / 3; ++i) std::copy_n(&threes[3 * i], 3, &fours[4 * i]);
+  return fours;
+}
+
 // The view in the frame of the projection's formulas, which the portal's is turned into about +z
 // (Projection::roll). The sphere is the same in both.
 simulation::ScopeView InPictureFrame(const simulation::ScopeView& view,
@@ -118,8 +126,8 @@ void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& de
   const ReliefTexture& relief = made->texture;
   Fill(*relief_, window, relief.width, relief.height, 4, VTK_FLOAT, relief.texels.data());
   if (backdrop_.relight > 0)
-    Fill(*slopes_, window, made->slopes.width, made->slopes.height, 3, VTK_FLOAT,
-         made->slopes.slopes.data());
+    Fill(*slopes_, window, made->slopes.width, made->slopes.height, 4, VTK_FLOAT,
+         InFours(made->slopes.slopes).data());
   const ReliefCeiling& ceiling = made->ceiling;
   Fill(*ceiling_, window, ceiling.width, ceiling.height, 1, VTK_FLOAT, ceiling.relief.data());
   ceiling_->SetMinificationFilter(vtkTextureObject::Nearest);

@@ -1,6 +1,6 @@
-// Panorama behind everything: a full-screen triangle fan. Each pixel follows its own ray to the
-// sphere around the portal, and from there into the panorama [method.md, Oblique view]. Writes the
-// relief into the depth buffer, so that it occludes the models.
+// Panorama behind everything: a polygon over the round window. Each pixel follows its own ray to
+// the sphere around the portal, and from there into the panorama [method.md, Oblique view]. Writes
+// the relief into the depth buffer, so that it occludes the models.
 #pragma once
 
 #include <array>

@@ -44,6 +44,21 @@ bool IsClosedAndOutward(const SurfaceMesh& surface) {
   return volume > 0.0 && glm::length(sum) < kOpenShare * area;
 }
 
+// Longest edge of a tissue whose distances OpenGL interpolates, which lets it leave out hidden
+// fragments before they are shaded. The inverse distance is interpolated, so that the middle of an
+// edge of length L at a distance d counts as L²/(8 d) too far: 13 um at 10 mm, 0.06 mm at 2 mm.
+constexpr double kFineEdge = 1e-3;  // m
+
+double LongestEdge(const SurfaceMesh& surface) {
+  double longest = 0;
+  for (const auto& t : surface.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      longest = std::max(longest,
+                         glm::distance(surface.vertices[static_cast<std::size_t>(t[i])],
+                                       surface.vertices[static_cast<std::size_t>(t[(i + 1) % 3])]));
+  return longest;
+}
+
 float Float(double value) { return static_cast<float>(value); }
 
 }  // namespace
@@ -82,6 +97,10 @@ LensModel::LensModel(Look look) : look_(look) {
   SetFrame({});
 }
 
+bool LensModel::IsFine() const {
+  return longest_edge_ > 0 && pose_.scale * longest_edge_ <= kFineEdge;
+}
+
 void LensModel::Assemble() {
   std::vector<std::string> defines;
   std::vector<std::string> structure;
@@ -91,6 +110,7 @@ void LensModel::Assemble() {
       structure.push_back("FIBRES");
     if (tissue_look_.structure == simulation::TissueStructure::kHyaline)
       structure.push_back("HYALINE");
+    if (IsFine()) structure.push_back("FINE");
   }
   if (has_lens_) defines.push_back("LENS");
   const SteadyInputs inputs = TakeSteadyInputs(ShaderText("model_inputs.glsl", defines));
@@ -150,6 +170,7 @@ void LensModel::SetReversed(bool is_reversed) {
 void LensModel::SetLook(const simulation::TissueLook& look, const SurfaceMesh& whole) {
   tissue_look_ = look;
   grain_ = TissueGrain(whole, look.structure);
+  longest_edge_ = LongestEdge(whole);
   Assemble();
   SetInFragments("tint", look.tint);
   SetInFragments("cutTint", look.cut_tint);
@@ -203,7 +224,9 @@ bool LensModel::SetShape(std::span<const glm::dvec3> positions,
 }
 
 void LensModel::SetPose(const Pose& pose) {
+  const bool was_fine = IsFine();
   pose_ = pose;
+  if (IsFine() != was_fine) Assemble();
   const glm::dmat3 rotation = glm::mat3_cast(pose.quaternion);
   vtkNew<vtkMatrix4x4> matrix;
   for (int r = 0; r < 3; ++r) {

@@ -83,6 +83,8 @@ class LensModel {
  private:
   // Composes the shaders.
   void Assemble();
+  // Whether the distance between vertices follows from theirs.
+  bool IsFine() const;
   void TakeGrain(const SurfaceMesh& surface, std::span<const std::uint8_t> fresh);
   void SetInFragments(const char* name, const glm::dvec3& value);
   void Set(const char* given_name, double value);
@@ -94,6 +96,7 @@ class LensModel {
   bool has_lens_ = false;  // not the equisolid lens
   ReliefContact contact_;
   bool is_closed_ = false, is_reversed_ = false;
+  double longest_edge_ = 0;  // longest edge at rest, in its own frame; 0: there is no surface
   Pose pose_;
   glm::dvec3 colour_{1.0};
   simulation::TissueLook tissue_look_;

@@ -16,6 +16,9 @@
 namespace arthro::app {
 namespace {
 
+// Largest fringe that is interpolated between a pixel and its neighbours: without two reads of the
+// picture per pixel, a tenth of the camera's work.
+constexpr double kNearFringe = 0.8;      // px at the rim
 constexpr double kMeteredRadius = 0.92;  // window radii; the rim is dark by its optics
 
 float Float(double value) { return static_cast<float>(value); }
@@ -104,6 +107,10 @@ void CameraPass::Expose(vtkOpenGLRenderWindow* window, const Picture& picture,
          "DETAIL");
   define(shows(CameraFeatures::kFringe) && camera.fringe > 0, "FRINGE");
   define(picture.rays == 1, "SAME_SIZE");
+  define(picture.rays == 1 && shows(CameraFeatures::kFringe) &&
+             camera.fringe * size <= 2.0 * kNearFringe &&
+             (camera.sharpening > 0 || camera.rim_blur > 0),
+         "NEAR_FRINGE");
   define(occlusion != nullptr, "OCCLUDED");
   define(edges == Edges::kMarked, "MARKS");
   define(edges == Edges::kSmoothed, "EDGES");

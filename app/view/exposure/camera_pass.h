@@ -49,7 +49,7 @@ class CameraPass {
   std::vector<std::uint8_t> texels_;
   std::vector<MeteredPart> parts_;
   std::array<Pass, 2> meter_passes_;     // without and with occlusion
-  std::array<Pass, 128> camera_passes_;  // one per variant of the shader
+  std::array<Pass, 256> camera_passes_;  // one per variant of the shader
 };
 
 }  // namespace arthro::app

@@ -131,12 +131,17 @@ void main() {
   dx += side * kSideBlur / texels * vec2(1.0, 0.0);
   dy += side * kSideBlur / texels * vec2(0.0, 1.0);
   vec2 shift = kSideShift / kLookTexels * reliefTexels / texels * up;
-  float edgeLuma = dot(textureLod(panorama, uv + kEdgeShare * shift, kEdgeLevel).rgb, kLuma);
+  vec2 edgePlace = uv + kEdgeShare * shift;
   uv += side * shift;
+#else
+  float side = 0.0;
+  vec2 edgePlace = uv;
 #endif
-  vec3 colour = imaged ? panoramaColour(uv, dx * texels, dy * texels) : vec3(0.0);
+  vec3 edge;
+  vec3 colour = panoramaColour(uv, dx * texels, dy * texels, side, edgePlace, kEdgeLevel, edge);
+  colour = imaged ? colour : vec3(0.0);
 #if defined(RELIEF) && !defined(PLAIN)
-  colour *= mix(1.0, min(edgeLuma / max(dot(colour, kLuma), kLeastLuma), 1.0), side);
+  colour *= mix(1.0, min(dot(edge, kLuma) / max(dot(colour, kLuma), kLeastLuma), 1.0), side);
 #endif
 
 #ifdef RELIEF

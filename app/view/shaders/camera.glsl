@@ -1,9 +1,10 @@
 // The camera behind the scope, over the finished picture: lateral colour, sharpness, exposure and
 // grain [method.md, Camera]. Reads a picture of the same size, or of twice the size and averages
 // four pixels by the filter of the texture. Variants: SAME_SIZE, OCCLUDED, MARKS, EDGES,
-// FRINGE, DETAIL and GRAIN. OCCLUDED multiplies the picture by the light of its occlusion. MARKS
-// draws all pixels without smoothing and writes the depth 1 at edges, 0 elsewhere; EDGES then draws
-// the pixels at edges alone, by a depth test.
+// FRINGE, NEAR_FRINGE, DETAIL and GRAIN. OCCLUDED multiplies the picture by the light of its
+// occlusion. NEAR_FRINGE, with DETAIL, moves colours by less than a pixel. MARKS draws all pixels
+// without smoothing and writes the depth 1 at edges, 0 elsewhere; EDGES then draws the pixels at
+// edges alone, by a depth test.
 #include "constants.inc"
 #ifdef OCCLUDED
 #include "occlusion_light.glsl"
@@ -122,8 +123,9 @@ void main() {
   float r2 = 4.0 * dot(offCentre, offCentre);
   float brightest = max(drawn.r, max(drawn.g, drawn.b));
 #if defined(DETAIL) || defined(MARKS) || defined(EDGES)
-  float n = dot(colourAside(0, 1), kLuma), s = dot(colourAside(0, -1), kLuma),
-        e = dot(colourAside(1, 0), kLuma), w = dot(colourAside(-1, 0), kLuma),
+  vec3 above = colourAside(0, 1), below = colourAside(0, -1), right = colourAside(1, 0),
+       left = colourAside(-1, 0);
+  float n = dot(above, kLuma), s = dot(below, kLuma), e = dot(right, kLuma), w = dot(left, kLuma),
         middle = dot(drawn, kLuma);
   float detail = middle - 0.25 * (n + s + e + w);
 #endif
@@ -137,8 +139,18 @@ void main() {
 #endif
 #ifdef FRINGE
   vec2 away = fringe * r2 * offCentre;
+#ifdef NEAR_FRINGE
+  // Takes the plane through the pixel and its neighbours on that side, which are read already.
+  vec2 share = abs(away) / pixel;
+  bool isRight = away.x > 0.0, isAbove = away.y > 0.0;
+  colour.r += share.x * ((isRight ? left : right).r - drawn.r) +
+              share.y * ((isAbove ? below : above).r - drawn.r);
+  colour.b += share.x * ((isRight ? right : left).b - drawn.b) +
+              share.y * ((isAbove ? above : below).b - drawn.b);
+#else
   colour.r += textureLod(picture, texCoord - away, 0.0).r - drawn.r;
   colour.b += textureLod(picture, texCoord + away, 0.0).b - drawn.b;
+#endif
 #endif
 #ifdef DETAIL
   float fine = clamp(detail, -kCoring, kCoring);
@@ -159,9 +171,10 @@ void main() {
   vec3 level = gain / edge * colour + offset;
   float luma = dot(level, kLuma);
   level = mix(level, vec3(luma), mix(kLessColour, kBleached, smoothstep(kBleachStart, 1.0, luma)));
-  vec3 below = clamp(kToe - level, 0.0, 2.0 * kToe),
-       above = clamp(level - kShoulder, 0.0, 2.0 * (1.0 - kShoulder));
-  level += below * below / (4.0 * kToe) - above * above / (4.0 * (1.0 - kShoulder));
+  vec3 inToe = clamp(kToe - level, 0.0, 2.0 * kToe),
+       inShoulder = clamp(level - kShoulder, 0.0, 2.0 * (1.0 - kShoulder));
+  level +=
+      inToe * inToe / (4.0 * kToe) - inShoulder * inShoulder / (4.0 * (1.0 - kShoulder));
 #ifdef GRAIN
   level += grain / 255.0 * grainAt(ivec2(gl_FragCoord.xy));
 #endif

@@ -1,5 +1,6 @@
 // Body that replaces VTK's lighting. A fragment whose own direction is outside the window, or
 // elsewhere in it, belongs to a triangle that wraps around the back of the lens: it is discarded.
+// FINE: the depth between vertices is that of OpenGL, which tests it before it shades.
   float lensDistance = length(lensPoint);
   vec2 lensOffset = (gl_FragCoord.xy - windowRadius) / windowRadius;
   float lensR = length(lensOffset);
@@ -9,7 +10,9 @@
   if (behind || distance(lensPlace, lensOffset) > kMostOffPlace || coverage <= 0.0 ||
       lensDistance < kNearest)
     discard;
+#ifndef FINE
   gl_FragDepth = storedDepth(lensDistance);
+#endif
   vec3 toLens = -lensPoint / lensDistance;
   // The fibres that give light end beside the lens, not in it.
   vec3 toLight = normalize(lampPlace - lensPoint);

@@ -9,7 +9,10 @@ const float kSharpness = 0.7;       // size of a sample over its distance from t
 const float kSampleRounding = 0.4;  // a further sample is taken above this fraction
 const float kFewSamples = 2.0;      // up to here one mipmap level is read, half the work of two
 const float kRound = 1e-6;          // below this share of the mean the ellipse counts as a circle
-vec3 panoramaColour(vec2 uv, vec2 dx, vec2 dy) {
+// A place of more than 0 `asks` also gives `other`, the colour at another place and level: in the
+// loop, so that blocks without such a place read one texel less.
+vec3 panoramaColour(vec2 uv, vec2 dx, vec2 dy, float asks, vec2 otherPlace, float otherLevel,
+                    out vec3 other) {
   float a = dx.x * dx.x + dy.x * dy.x, b = dx.x * dx.y + dy.x * dy.y, c = dx.y * dx.y + dy.y * dy.y;
   float mean = 0.5 * (a + c), spread = sqrt(max(0.25 * (a - c) * (a - c) + b * b, 0.0));
   float longer = sqrt(mean + spread);
@@ -23,11 +26,16 @@ vec3 panoramaColour(vec2 uv, vec2 dx, vec2 dy) {
   vec2 step = axis * longer / count / texels;
   vec2 start = uv - 0.5 * (count - 1.0) * step;
   vec3 sum = vec3(0.0);
-  float i = 0.0;
+  other = vec3(0.0);
+  float i = 0.0, end = asks > 0.0 ? count + 1.0 : count;
   while (true) {
-    sum += textureLod(panorama, start + i * step, lod).rgb;
+    bool isOther = i >= count;
+    vec3 found = textureLod(panorama, isOther ? otherPlace : start + i * step,
+                            isOther ? otherLevel : lod).rgb;
+    sum += isOther ? vec3(0.0) : found;
+    other = found;
     i += 1.0;
-    if (i >= count) break;
+    if (i >= end) break;
   }
   return sum / count;
 }

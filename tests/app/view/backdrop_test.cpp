@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <random>
 #include <utility>
 
+#define GL_GLEXT_PROTOTYPES
+#include <GL/gl.h>
 #include <glm/geometric.hpp>
 
 #include "app/view/backdrop/backdrop_texture.h"
@@ -145,6 +148,34 @@ TEST_F(BackdropView, OutsideTheWindowIsBlackAndTheRimIsOnePixelWide) {
       }
     EXPECT_GT(between, 300);  // the rim is blended, not stepped
   }
+}
+
+// Fragments that OpenGL shades for a picture, over the pixels of its disc. A rasteriser shades
+// whole blocks of pixels, so that those at edges between triangles count twice: 1.26 for a fan of
+// 64 triangles from the middle.
+TEST_F(BackdropView, FewPixelsAreShadedTwice) {
+  constexpr int kSide = 512;
+  constexpr GLenum kShaded = 0x82F4;  // GL_FRAGMENT_SHADER_INVOCATIONS_ARB
+  const LoadedScene loaded = MakeViewScene(256, 256);
+  view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
+  Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.4);
+  picture.plain = true;
+  view_->Render(picture, kSide);
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  GLuint query = 0, shaded = 0;
+  glGenQueries(1, &query);
+  glBeginQuery(kShaded, query);
+  if (glGetError() != GL_NO_ERROR)
+    GTEST_SKIP() << "NOT TESTED: this driver does not count fragments";
+  view_->Render(picture, kSide);
+  glEndQuery(kShaded);
+  glGetQueryObjectuiv(query, GL_QUERY_RESULT, &shaded);
+  glDeleteQueries(1, &query);
+  const double share = shaded / (0.25 * std::numbers::pi * kSide * kSide);
+  std::printf("shaded fragments per pixel of the disc: %.3f\n", share);
+  EXPECT_GE(share, 1.0);
+  EXPECT_LT(share, 1.25);
 }
 
 TEST_F(BackdropView, DepthIsTheReliefsDistanceAlongTheView) {

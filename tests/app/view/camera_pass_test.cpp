@@ -203,6 +203,46 @@ TEST_F(CameraPassView, FringeMovesRedOutwardsAndBlueInwards) {
   EXPECT_NEAR(Crossing(image, 2, 140, 240) - green, -moved, 0.15);
 }
 
+// The same for a fringe of less than a pixel, which is interpolated between neighbouring pixels.
+TEST_F(CameraPassView, NearFringeMovesColoursByPartsOfAPixel) {
+  LensCamera camera = kNothing;
+  camera.fringe = 0.006;
+  camera.rim_blur = 0.01;
+  const ColourImage image = Drawn(Forward(Halves(1024, 1024, 700), camera));
+  const double green = Crossing(image, 1, 140, 250);
+  const double r = (green - 127.5) / 128, moved = camera.fringe * r * r * r * 128;
+  ASSERT_GT(moved, 0.2);
+  EXPECT_NEAR(Crossing(image, 0, 140, 250) - green, moved, 0.15);
+  EXPECT_NEAR(Crossing(image, 2, 140, 250) - green, -moved, 0.15);
+}
+
+// The widest fringe that is interpolated (0.8 px at the rim) and the narrowest that is filtered.
+TEST_F(CameraPassView, InterpolatedFringeIsThatOfTheFilter) {
+  const LoadedScene loaded = MakeViewScene();
+  view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
+  view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
+  Picture picture = PictureFromPose({-0.1, 0.1, 0.2, 0.01}, 0.5, std::numbers::pi / 2);
+  picture.camera = LensCamera();
+  picture.camera->grain = 0;
+  picture.camera->fringe = 1.6 / kSize;
+  const ColourImage interpolated = Drawn(picture);
+  picture.camera->fringe *= 1.0001;
+  const ColourImage filtered = Drawn(picture);
+  int off = 0;
+  double squares = 0;
+  for (std::size_t i = 0; i < filtered.rgb.size(); ++i) {
+    const int difference = int(interpolated.rgb[i]) - int(filtered.rgb[i]);
+    off += std::abs(difference) > 2 ? 1 : 0;
+    squares += difference * difference;
+  }
+  const auto count = static_cast<double>(filtered.rgb.size());
+  std::printf("interpolated fringe: %.3f %% off by more than 2 levels, rms %.3f\n",
+              100 * off / count, std::sqrt(squares / count));
+  EXPECT_NE(interpolated.rgb, filtered.rgb);
+  EXPECT_LT(off, 0.01 * count);
+  EXPECT_LT(std::sqrt(squares / count), 0.8);
+}
+
 TEST_F(CameraPassView, CentreIsSharperThanTheRim) {
   const auto steepest = [&](double column, const LensCamera& camera, int from, int to) {
     const ColourImage image = Drawn(Forward(Halves(1024, 1024, column), camera));

@@ -100,6 +100,35 @@ TEST_F(ModelsView, ReliefHidesOnlyTissueBehindIt) {
   }
 }
 
+// Tissues of edges up to 1 mm, whose distances are interpolated.
+TEST_F(ModelsView, DistanceOfAFineTissueIsThatOfItsTriangles) {
+  constexpr int kSize = 200;
+  LoadedScene loaded = MakeViewScene(256, 256);
+  view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
+  const SurfaceMesh ball = Ellipsoid(glm::dvec3(0.003), 24, 12);
+  Tissue tissue;
+  tissue.pose.position = {0, 0, 0.018};
+  view_->SetTissues(std::span(&tissue, 1), std::vector{Share(ball)});
+  const Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.4);  // 5 mm before the ball
+  view_->Render(picture, kSize);
+  const std::vector<float> drawn = view_->ReadDistances();
+  const SurfaceMesh placed = Moved(ball, tissue.pose);
+  const ReferenceMesh mesh{&placed, {}};
+  const TracedPicture traced = TraceWindow(loaded.scene.backdrop, *loaded.panorama, picture.view,
+                                           picture.field_of_view, kSize, std::span(&mesh, 1));
+  double most = 0;
+  int compared = 0;
+  // At the outline a chord may be drawn a pixel aside.
+  for (std::size_t i = 2; i + 2 < drawn.size(); ++i) {
+    if (traced.what[i - 2] != 1 || traced.what[i] != 1 || traced.what[i + 2] != 1) continue;
+    most = std::max(most, std::abs(drawn[i] - traced.distance[i]));
+    ++compared;
+  }
+  std::printf("distance of a fine tissue: %d px, %.1f um off at most\n", compared, 1e6 * most);
+  EXPECT_GT(compared, 2000);
+  EXPECT_LT(most, 30e-6);  // (0.8 mm)² / (8 · 5 mm) is 16 um, and the drawn chord
+}
+
 // A ball of 4 mm whose centre lies 3 mm below a level relief, seen from above. Where it meets the
 // relief its side rises by 0.3 mm over 0.39 mm, which are 9 px; the middle half of a smooth step
 // over them is 3 px. Higher up the ball hides the relief wholly.

@@ -1,5 +1,8 @@
 #include "app/view/drawing/passes/shader_pass.h"
 
+#include <cmath>
+#include <numbers>
+
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLShaderCache.h>
 #include <vtkShaderProgram.h>
@@ -37,8 +40,9 @@ vtkShaderProgram* ShaderPass::Ready(vtkOpenGLRenderWindow* window) {
 void ShaderPass::Draw(int side) {
   glBindVertexArray(vertex_array_);
   if (shape_ == Shape::kRound) {
-    program_->SetUniformf("reach", static_cast<float>(1.00121 + 2.0 / side));
-    glDrawArrays(GL_TRIANGLE_FAN, 0, kDiscCorners + 2);
+    const double around = 1.0 / std::cos(std::numbers::pi / kDiscCorners);
+    program_->SetUniformf("reach", static_cast<float>(around + 2.0 / side));
+    glDrawArrays(GL_TRIANGLES, 0, 3 * (kDiscCorners - 2));
   } else {
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }

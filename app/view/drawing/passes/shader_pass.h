@@ -12,8 +12,8 @@ namespace arthro::app {
 
 class ShaderPass {
  public:
-  // kRound: the disc that touches the target's edges, and a pixel more for its soft rim. A software
-  // rasteriser then fills a fifth less.
+  // kRound: a polygon around the disc that touches the target's edges, and a pixel more for its
+  // soft rim. A software rasteriser then fills a fifth less.
   enum class Shape { kWhole, kRound };
   // Fragments may read `in vec2 texCoord`, 0 to 1 over the target.
   ShaderPass(const std::string& fragment_shader, Shape shape);
