@@ -125,7 +125,7 @@ void UnderWay(Ui& ui, EditorState& state) {
     Text(ui, "Free practice: end the attempt when you are ready.");
   }
   Gap(ui);
-  QuietText(ui, fmt::format("Force on the tip {:.2f} N", strip.force));
+  if (!strip.force_band) QuietText(ui, fmt::format("Force on the tip {:.2f} N", strip.force));
   const float foot = 2 * ui.Px(50);
   const float free = ImGui::GetContentRegionAvail().y - foot;
   if (free > 0) ImGui::Dummy({0, free - ImGui::GetStyle().ItemSpacing.y});

@@ -59,6 +59,7 @@ ShownUnit ShownUnitOf(const std::string& unit) {
   if (unit == "m") return {1e3, "mm"};
   if (unit == "m2") return {1e6, "mm²"};
   if (unit == "m3") return {1e9, "mm³"};
+  if (unit == "1/min") return {1, "per min"};
   if (unit == "rad") return {1 / kRadianPerDegree, "°"};
   return {1, unit};
 }

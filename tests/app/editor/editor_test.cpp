@@ -75,7 +75,7 @@ key escape
 click "Practise"
 wait job
 wait frames 5
-expect "Leave practice"
+expect "Force on the tissue"
 )");
 }
 

@@ -28,6 +28,7 @@ TEST(MetricWords, ValuesHaveThreeDigitsAndTheUnitOfAReader) {
   EXPECT_EQ(ValueWords(9.3061, "N"), "9.31 N");
   EXPECT_EQ(ValueWords(3.14159265, "rad"), "180 °");
   EXPECT_EQ(ValueWords(1e-5, "m2"), "10 mm²");
+  EXPECT_EQ(ValueWords(23.7, "1/min"), "23.7 per min");
   EXPECT_EQ(ValueWords(999.7, "s"), "1000 s");
   EXPECT_EQ(ValueWords(12345.6, "s"), "12346 s");
   EXPECT_EQ(ValueWords(6.852e-17, "m"), "0 mm");
