@@ -1,6 +1,7 @@
 #include "app/report/make_report.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>

@@ -1,5 +1,7 @@
 #include "app/editor/marks/target_marks.h"
 
+#include <utility>
+
 #include "app/editor/marks/cue_marks.h"
 #include "app/steps/lessons/exercise_edit.h"
 #include "app/steps/lessons/lessons_step.h"

@@ -1,6 +1,9 @@
 // Criteria of the exercise that is edited: what is measured, in which tool, within which limits, in
 // the units of a reader, and where the limit comes from.
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <imgui.h>
