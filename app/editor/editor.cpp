@@ -429,8 +429,8 @@ class Editor {
 
   void Scene(Ui& ui, const Layout& layout) {
     DrawPictures(ui, layout);
-    picture_focused_ =
-        ShowSceneViews(ui, layout, {state_, pictures_, panorama_clicks_, footage_textures_});
+    picture_focused_ = ShowSceneViews(
+        ui, layout, {state_, pictures_, panorama_clicks_, footage_textures_, target_marks_});
   }
 
   void DrawPictures(const Ui& ui, const Layout& layout) {
@@ -462,6 +462,7 @@ class Editor {
   std::optional<PictureWindow> trainee_screen_;
   FootageTextures footage_textures_, dialog_textures_;
   PanoramaClicks panorama_clicks_;
+  TargetMarks target_marks_;
   EditorState state_;
   RecoveryCopy recovery_;  // ends before the state that it writes
   WidgetRegistry widgets_;

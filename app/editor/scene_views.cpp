@@ -141,6 +141,8 @@ bool ShowSceneViews(Ui& ui, const Layout& layout, const SceneViews& views) {
     Paint(views, input);
     ApplyPictureInput(state, input, pictures.view(), state.document().scene.scope.field_of_view);
     if (input.clicked) pictures.ClickScope(state, PlaceInPicture(input, *input.clicked));
+    views.target_marks.Draw(ui, state, layout.picture, input.area, pictures.view(),
+                            pictures.optics());
   }
   if (layout.shows_overview)
     pictures.HandleOverview(

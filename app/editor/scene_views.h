@@ -2,6 +2,7 @@
 // brushes, landmarks, clicks, and marks over both.
 #pragma once
 
+#include "app/editor/marks/target_marks.h"
 #include "app/editor/panels/panels.h"
 #include "app/editor/panorama_clicks.h"
 #include "app/editor/pictures/footage_textures.h"
@@ -14,6 +15,7 @@ struct SceneViews {
   Pictures& pictures;
   PanoramaClicks& panorama_clicks;
   FootageTextures& footage_textures;
+  TargetMarks& target_marks;
 };
 
 // Shows both and takes their input. True where keys move the scope.

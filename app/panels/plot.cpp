@@ -45,6 +45,14 @@ Axes AxesOf(const Ui& ui, const Plot& plot, const Area& area) {
           axes.high + more_y};
 }
 
+// In a narrow plot the letters get smaller, down to a half.
+void Title(const Ui& ui, const std::string& words, const Area& area) {
+  const float room = area.width - ui.Px(20), width = ImGui::CalcTextSize(words.c_str()).x;
+  const float size = ImGui::GetFontSize() * std::clamp(room / std::max(width, 1.0f), 0.5f, 1.0f);
+  ImGui::GetWindowDrawList()->AddText(
+      ImGui::GetFont(), size, {area.x + ui.Px(10), area.y + ui.Px(5)}, kBright, words.c_str());
+}
+
 void Grid(Ui& ui, const Plot& plot, const Axes& axes) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const Area& area = axes.area;
@@ -122,7 +130,7 @@ std::optional<double> DrawPlot(Ui& ui, const Plot& plot, const Area& area) {
   RecordItem(ui, plot.title, true, "", WidgetKind::kShown);
   const ImVec2 far_corner{area.x + area.width, area.y + area.height};
   draw->AddRectFilled({area.x, area.y}, far_corner, kGround, ui.Px(4));
-  draw->AddText({area.x + ui.Px(10), area.y + ui.Px(5)}, kBright, ui.In(plot.title).c_str());
+  Title(ui, ui.In(plot.title), area);
 
   const Axes axes = AxesOf(ui, plot, area);
   draw->PushClipRect({area.x, area.y}, far_corner, true);

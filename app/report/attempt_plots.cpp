@@ -27,7 +27,8 @@ double TimeOf(std::size_t frame) { return simulation::kFrameTime * static_cast<d
 std::vector<PlotLine> Divisions(const AttemptReport& report) {
   std::vector<PlotLine> divisions;
   for (const StepRow& step : report.attempt.steps)
-    if (step.outcome != "pending") divisions.push_back({step.began, step.step});
+    if (step.outcome != "pending")
+      divisions.push_back({step.began, "step " + StepNumber(report.steps, step.step)});
   return divisions;
 }
 
@@ -35,9 +36,18 @@ const ToolFrame& ToolOf(const AttemptFrame& frame, DeviceRole role) {
   return frame.tool[Index(role)];
 }
 
-std::string StepWords(const StepRow& step) {
+std::string Shortened(std::string text, std::size_t bytes) {
+  if (text.size() <= bytes) return text;
+  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U) --bytes;
+  text.resize(bytes);
+  return text + "…";
+}
+
+// Number, title and outcome of a step; a long title is cut.
+std::string StepWords(const AttemptReport& report, const StepRow& step) {
+  constexpr std::size_t kMostLetters = 40;
   const std::string& outcome = step.outcome;
-  return fmt::format("{}: {}", step.step,
+  return fmt::format("{}: {}", Shortened(StepLine(report.steps, step.step), kMostLetters),
                      outcome == "pending"   ? "not begun"
                      : outcome == "running" ? "not done"
                                             : outcome);
@@ -50,7 +60,7 @@ std::string StepsSvg(const AttemptReport& report) {
   const AttemptRecord& attempt = report.attempt;
   double left = 170;  // room for the longest words
   for (const StepRow& step : attempt.steps)
-    left = std::max(left, 16 + kLetter * static_cast<double>(StepWords(step).size()));
+    left = std::max(left, 16 + kLetter * static_cast<double>(StepWords(report, step).size()));
   left = std::min(left, 0.5 * kWidth);
   double end = attempt.duration.value_or(0);
   for (const StepRow& step : attempt.steps) end = std::max(end, step.ended.value_or(step.began));
@@ -68,7 +78,7 @@ std::string StepsSvg(const AttemptReport& report) {
     const bool is_done = step.outcome == "done";
     const double stop = step.ended.value_or(end);
     row_of[step.step] = y;
-    text(left - 8, y + 14, "end", StepWords(step));
+    text(left - 8, y + 14, "end", StepWords(report, step));
     if (step.outcome == "pending") {  // it was never reached
       y += kRow;
       continue;

@@ -66,7 +66,10 @@ std::string HeadOf(const AttemptReport& report) {
   row("Goal", report.goal);
   row("Scene", attempt.scene);
   if (report.is_mode_known) row("Mode", ToString(attempt.mode));
-  row("Begin", attempt.started);
+  // A robot begins at the epoch, so that it leaves the same bytes.
+  row("Begin", attempt.started.empty() || attempt.mode == AttemptMode::kRobot
+                   ? ""
+                   : TimeWords(attempt.started) + " UTC");
   row("Duration", attempt.duration ? ValueWords(attempt.duration, "s") + ", without pauses" : "");
   row("Station", report.station);
   row("Devices", report.rig);
@@ -114,7 +117,8 @@ std::string CriteriaOf(const AttemptReport& report) {
   for (const CriterionRow& criterion : attempt.criteria) {
     const std::string unit = UnitOf(attempt, criterion.metric, criterion.part);
     rows.push_back({MetricWords(criterion.metric, criterion.part),
-                    ValueWords(criterion.value, unit), LimitWords(criterion, unit),
+                    ValueWords(criterion.value, unit, LimitsOf(criterion)),
+                    LimitWords(LimitsOf(criterion), unit),
                     criterion.passed  ? "✓ met"
                     : criterion.value ? "✗ not met"
                                       : "✗ not measured, so not met",
@@ -139,15 +143,15 @@ std::string MetricsOf(const AttemptReport& report) {
   return Table(Head(report, {"Metric", "Value", "Reason for a missing value"}), rows);
 }
 
-std::string EventsOf(const AttemptRecord& attempt) {
+std::string EventsOf(const AttemptReport& report) {
   std::vector<Cells> rows;
-  for (const EventRow& event : attempt.events) {
+  for (const EventRow& event : report.attempt.events) {
     std::string words = event.kind;
     std::replace(words.begin(), words.end(), '_', ' ');
     // Forces are the one value that a reader knows without its unit.
     const bool is_force = event.kind == "force_over" || event.kind == "probed";
-    rows.push_back({fmt::format("{:.2f} s", event.t), words, event.step, event.target,
-                    is_force ? ValueWords(event.value, "N") : "", event.note});
+    rows.push_back({fmt::format("{:.2f} s", event.t), words, StepNumber(report.steps, event.step),
+                    event.target, is_force ? ValueWords(event.value, "N") : "", event.note});
   }
   return Table({"Time", "Event", "Step", "Target", "Force", "Note"}, rows);
 }
@@ -182,7 +186,7 @@ std::string AttemptPage(const AttemptReport& report) {
     html += Heading("Paths") + PathSvg(report, false) + PathSvg(report, true);
   }
   if (!attempt.metrics.empty()) html += Heading("Metrics") + MetricsOf(report);
-  if (!attempt.events.empty()) html += Heading("Events") + EventsOf(attempt);
+  if (!attempt.events.empty()) html += Heading("Events") + EventsOf(report);
   html += fmt::format("<p class=\"small\">{}. Metrics of version {}.", XmlText(report.program),
                       attempt.metrics_version);
   if (!attempt.id.empty()) html += fmt::format(" Attempt {}.", XmlText(attempt.id));

@@ -33,7 +33,8 @@ struct AttemptReport {
   // Frames of the attempt, 10 ms apart; empty where its file is not at hand.
   std::vector<simulation::AttemptFrame> frames;
   std::vector<std::string> targets;  // ids, in the order of the exercise
-  std::string group;                 // name of the reference group; empty: none
+  StepNames steps;
+  std::string group;  // name of the reference group; empty: none
   std::vector<GroupStanding> standings;
   // Tissue of the frames, for pictures of a scene; drawn pictures.
   std::vector<simulation::TrackPiece> track;

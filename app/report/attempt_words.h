@@ -1,25 +1,22 @@
-// Numbers and outcomes of an attempt in the words and units of a reader: mm, degrees, mm².
+// Outcomes, values and limits of an attempt in the records in the words and units of a reader.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "app/records/attempts/attempt_record.h"
+#include "simulation/training/metrics/metric_words.h"
 
 namespace arthro::app {
 
-// Files hold SI units; a person reads these.
-struct ShownUnit {
-  double factor;  // factor of a value in SI
-  std::string words;
-};
-ShownUnit ShownUnitOf(const std::string& unit);
+using simulation::LimitWords;
+using simulation::MetricWords;
+using simulation::ValueLimits;
+using simulation::ValueWords;
 
-// A value with its unit, such as "252 mm" for 0.252 m; "not measured" for nothing.
-std::string ValueWords(const std::optional<double>& value, const std::string& unit);
-
-// "at most 8.5 N", "at least 0.9", "between 0.5 and 3 N"; empty without a limit.
-std::string LimitWords(const CriterionRow& criterion, const std::string& unit);
+// Limits of a criterion in the records.
+inline ValueLimits LimitsOf(const CriterionRow& criterion) {
+  return {criterion.low, criterion.high};
+}
 
 // Unit of a metric of the attempt; empty where it has none.
 std::string UnitOf(const AttemptRecord& attempt, const std::string& metric,
@@ -28,10 +25,10 @@ std::string UnitOf(const AttemptRecord& attempt, const std::string& metric,
 // "Passed", "Not passed", "Stopped", "Void", each with a sentence that says why.
 std::string OutcomeWords(const AttemptRecord& attempt);
 
+// "2026-11-24 02:10" of a time of the records.
+std::string TimeWords(const std::string& utc);
+
 // "more" or "less": which value of a metric is better; empty for a metric of another program.
 const char* BetterWord(const std::string& metric);
-
-// A metric's id without underscores: "peak force".
-std::string MetricWords(const std::string& metric, const std::string& part);
 
 }  // namespace arthro::app

@@ -9,6 +9,7 @@
 #include "app/view/attempt_picture.h"
 #include "app/view/live_tissues.h"
 #include "app/view/still_picture.h"
+#include "simulation/core/error.h"
 #include "simulation/scene/formats/jpeg_bytes.h"
 #include "simulation/scope/window_lens.h"
 #include "simulation/training/track/tissue_track.h"
@@ -46,6 +47,18 @@ std::vector<ReportPicture> DrawMoments(const LoadedScene& loaded,
         {moment, JpegFromColourImage(stills.Draw(PictureOfFrame(frame, optics), kEdge), kQuality)});
   }
   return pictures;
+}
+
+std::string SetPictures(AttemptReport& report, const LoadedScene& loaded,
+                        std::span<const simulation::TissueLook> looks) {
+  const auto moments = MomentsOf(report.attempt, report.frames, report.steps);
+  if (moments.empty()) return "";
+  try {
+    report.pictures = DrawMoments(loaded, looks, report.frames, report.track, moments);
+  } catch (const Error& fault) {
+    return fault.what();
+  }
+  return "";
 }
 
 }  // namespace arthro::app

@@ -2,14 +2,20 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
-#include "app/report/report_picture.h"
+#include "app/report/attempt_report.h"
 #include "simulation/scene/files/loaded_scene.h"
 #include "simulation/tissue/body/tissue_look.h"
 #include "simulation/training/track/track_piece.h"
 
 namespace arthro::app {
+
+// Sets the pictures of a report whose frames were observed in this scene. Returns why it has none,
+// a sentence without a period; empty: it has them, or no moment to show.
+std::string SetPictures(AttemptReport& report, const LoadedScene& loaded,
+                        std::span<const simulation::TissueLook> looks);
 
 // Draws the moments from the lens of the scope, with tissue as it was where `track` has it.
 // `looks`: one per tissue, or none. Throws Error(kDisplay) when nothing can draw, and Error for a

@@ -1,6 +1,7 @@
 #include "app/report/make_report.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "simulation/scene/json/exercise_json.h"
 #include "simulation/training/attempt_log.h"
 #include "simulation/training/score/criteria.h"
+#include "simulation/training/steps/step_words.h"
 
 namespace arthro::app {
 namespace {
@@ -22,6 +24,8 @@ namespace {
 void SetExercise(AttemptReport& report, const Exercise& exercise) {
   report.goal = exercise.brief;
   for (const ExerciseTarget& target : exercise.targets) report.targets.push_back(target.id);
+  for (std::size_t i = 0; i < exercise.steps.size(); ++i)
+    report.steps[BaseOf(exercise.steps[i]).id] = {i + 1, simulation::StepTitle(exercise.steps[i])};
 }
 
 const simulation::Metric* MetricOf(const std::string& id) {
@@ -50,6 +54,15 @@ ReferenceGroup FindGroup(Records& records, const std::string& name, const Exerci
 
 }  // namespace
 
+void SortMetrics(std::vector<MetricRow>& rows) {
+  const auto place = [](const MetricRow& row) {
+    const simulation::Metric* metric = MetricOf(row.name);
+    return metric == nullptr ? std::ssize(simulation::EveryMetric())
+                             : metric - simulation::EveryMetric().data();
+  };
+  std::ranges::stable_sort(rows, {}, place);
+}
+
 AttemptReport MakeReport(const Exercise& exercise, const simulation::AttemptResult& result,
                          std::vector<simulation::AttemptFrame> frames) {
   AttemptReport report;
@@ -66,6 +79,7 @@ AttemptReport ReportFromRecords(Records& records, const std::string& attempt, st
   const RecordsBundle bundle = ReadBundleOf(records, attempt);
   AttemptReport report;
   report.attempt = bundle.attempts.at(0);
+  SortMetrics(report.attempt.metrics);
   report.exercise = bundle.exercises.at(0);
   report.trainee = bundle.trainees.at(0).code;
   report.station = bundle.sessions.at(0).station;

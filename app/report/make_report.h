@@ -11,6 +11,9 @@
 
 namespace arthro::app {
 
+// Sorts metrics of the records, which have no order, as they are measured.
+void SortMetrics(std::vector<MetricRow>& rows);
+
 // Report of a result with its frames. Attempt id, trainee, scene and mode are not known of it.
 AttemptReport MakeReport(const Exercise& exercise, const simulation::AttemptResult& result,
                          std::vector<simulation::AttemptFrame> frames);

@@ -64,12 +64,25 @@ std::string Base64(const std::string& bytes) {
 
 }  // namespace
 
+std::string StepNumber(const StepNames& names, const std::string& id) {
+  const auto found = names.find(id);
+  return found == names.end() ? id : fmt::format("{}", found->second.number);
+}
+
+std::string StepLine(const StepNames& names, const std::string& id) {
+  const auto found = names.find(id);
+  return found == names.end() ? id
+                              : fmt::format("{}. {}", found->second.number, found->second.title);
+}
+
 std::vector<ReportMoment> MomentsOf(const AttemptRecord& attempt,
-                                    std::span<const simulation::AttemptFrame> frames) {
+                                    std::span<const simulation::AttemptFrame> frames,
+                                    const StepNames& names) {
   std::vector<ReportMoment> moments, faults;
   for (const StepRow& step : attempt.steps)
     if (step.ended && (step.outcome == "done" || step.outcome == "failed"))
-      moments.push_back({*step.ended, step.step + ": " + step.outcome, step.outcome == "failed"});
+      moments.push_back({*step.ended, StepLine(names, step.step) + ": " + step.outcome,
+                         step.outcome == "failed"});
   for (const EventRow& event : attempt.events)
     if (const std::string words = FaultWords(event);
         !words.empty() && !IsAllowed(attempt, event.kind))
@@ -80,7 +93,7 @@ std::vector<ReportMoment> MomentsOf(const AttemptRecord& attempt,
       const std::size_t peak = PeakOf(frames);
       const double force = frames[peak].tool[Index(simulation::DeviceRole::kInstrument)].peak_force;
       faults.insert(faults.begin(), {simulation::kFrameTime * static_cast<double>(peak + 1),
-                                     fmt::format("largest force: {:.1f} N", force), true});
+                                     fmt::format("peak force: {:.3g} N", force), true});
       break;
     }
   if (faults.size() > kMostFaultPictures) faults.resize(kMostFaultPictures);

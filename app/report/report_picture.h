@@ -2,6 +2,7 @@
 // fault. Their choice is made here; they are drawn by draw_pictures.h.
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,18 @@
 #include "simulation/training/observe/attempt_frame.h"
 
 namespace arthro::app {
+
+// Steps of the exercise by their ids: the number of each, from 1, and what was asked for. Without
+// an entry a step is shown by its id.
+struct StepName {
+  std::size_t number = 0;
+  std::string title;
+};
+using StepNames = std::map<std::string, StepName>;
+// "2"
+std::string StepNumber(const StepNames& names, const std::string& id);
+// "2. Touch the spine"
+std::string StepLine(const StepNames& names, const std::string& id);
 
 // A moment that the report shows.
 struct ReportMoment {
@@ -28,7 +41,8 @@ struct ReportPicture {
 // is left out. In the order of time; of many faults the first kMostFaultPictures.
 inline constexpr std::size_t kMostFaultPictures = 6;
 std::vector<ReportMoment> MomentsOf(const AttemptRecord& attempt,
-                                    std::span<const simulation::AttemptFrame> frames);
+                                    std::span<const simulation::AttemptFrame> frames,
+                                    const StepNames& names = {});
 
 // The pictures as a part of the page, three in a row. `has_tissue`: they show tissue as it was, not
 // at rest.

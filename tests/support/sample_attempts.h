@@ -23,9 +23,11 @@ inline app::ExerciseRow SampleExercise(int number = 0) {
 // A result with one missing value, and with the numbers of an attempt of `seconds`.
 inline simulation::AttemptResult SampleResult(double seconds = 74, bool passes = false) {
   using namespace simulation;
-  static constexpr Metric kTime{"task_time", "s", "Time of the attempt without its pauses."},
-      kForce{"peak_force", "N", "Largest force on the tip."},
-      kLoss{"tool_loss", "", "Share of the time in which the tip was not seen."};
+  static constexpr Metric kTime{"task_time", "Time", "s",
+                                "Time of the attempt without its pauses."},
+      kForce{"peak_force", "Peak force", "N", "Largest force on the tip."},
+      kLoss{"tool_loss", "Share with the tip out of view", "",
+            "Share of the time in which the tip was not seen."};
   AttemptResult result;
   result.outcome = passes ? AttemptOutcome::kPassed : AttemptOutcome::kFailed;
   result.reason = passes ? "" : "The force on the instrument was 9.1 N; 8.5 N are allowed.";

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -14,7 +15,10 @@
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/cli/practice/shipped_presets.h"
+#include "app/cli/records/records_job.h"
 #include "app/records/attempts/attempt_record.h"
+#include "app/records/keeping/kept_attempt.h"
+#include "app/records/people/trainees.h"
 #include "app/records/store/records.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -34,7 +38,8 @@ using simulation::RobotFault;
 
 struct RobotJob {
   fs::path scene, attempt;
-  std::string exercise, fault = "none";
+  std::string exercise, fault = "none", trainee;
+  std::shared_ptr<RecordsPlace> place;
   simulation::RobotOptions options;
   bool requires_pass = false;
 };
@@ -64,13 +69,36 @@ simulation::AttemptHead HeadOf(const RobotJob& job, const LoadedScene& loaded,
           .surfaces = simulation::SurfaceNames(loaded.scene)};
 }
 
+// Keeps the attempt in the records, in mode robot.
+void Keep(const RobotJob& job, const LoadedScene& loaded, const Exercise& exercise,
+          const fs::path& file, const simulation::AttemptResult& result, Records& records) {
+  const std::string program = fmt::format("arthroscene {}", Version());
+  const SessionRow session = StartSession(records, job.trainee, program, "robot");
+  KeptAttempt kept(&records, records.folder(), session,
+                   {.trainee = job.trainee,
+                    .exercise = ExerciseRowOf(exercise),
+                    .scene = loaded.scene.title,
+                    .scene_fingerprint = simulation::FingerprintOfScene(loaded),
+                    .surfaces = simulation::SurfaceNames(loaded.scene),
+                    .mode = AttemptMode::kRobot,
+                    .program = program,
+                    .rig = "robot"});
+  const simulation::RecordedAttempt attempt = simulation::ReadAttempt(file);
+  kept.Add(attempt.frames, attempt.events, attempt.track);
+  const std::string where = kept.Finish(&records, result);
+  EndSession(records, session.id);
+  for (const std::string& notice : kept.notices())
+    fmt::print(stderr, "warning: {}\n", PrintableLine(notice));
+  fmt::print("Kept for {} as attempt {}.\n", job.trainee, kept.record().id);
+  if (!where.empty()) fmt::print(stderr, "note: {}\n", PrintableLine(where));
+}
+
 void Print(const simulation::AttemptResult& result) {
   fmt::print("{} after {:.2f} s{}{}\n", ToString(result.outcome), result.duration,
              result.reason.empty() ? "" : ": ", PrintableLine(result.reason));
   for (const simulation::CriterionResult& criterion : result.criteria)
-    fmt::print("{:8} {} {} {}\n", criterion.is_met ? "met" : "not met", criterion.metric,
-               criterion.part,
-               criterion.value ? fmt::format("{:.6g}", *criterion.value) : "not measured");
+    fmt::print("{:8} {}\n", criterion.is_met ? "met" : "not met",
+               simulation::CriterionWords(criterion));
 }
 
 void Run(const RobotJob& job) {
@@ -79,10 +107,20 @@ void Run(const RobotJob& job) {
   const Exercise& exercise = ExerciseWithId(loaded.scene.exercises, job.exercise);
   simulation::RobotOptions options = job.options;
   options.fault = *simulation::RobotFaultFromString(job.fault);
+  std::unique_ptr<Records> records;
+  if (!job.trainee.empty()) {
+    records = std::make_unique<Records>(job.place->Connection());
+    FindTrainee(*records, job.trainee);
+  }
   std::unique_ptr<PartialFile> partial;
   std::unique_ptr<simulation::AttemptLog> log;
-  if (!job.attempt.empty()) {
-    partial = std::make_unique<PartialFile>(job.attempt, Access::kPrivate);
+  // The log of an attempt that is kept lies beside the records for as long as the robot is at work.
+  const fs::path file =
+      job.attempt.empty() && records
+          ? records->folder() / fmt::format("robot-{}.attempt", static_cast<long>(::getpid()))
+          : job.attempt;
+  if (!file.empty()) {
+    partial = std::make_unique<PartialFile>(file, Access::kPrivate);
     log = std::make_unique<simulation::AttemptLog>(
         partial->beside(), std::vector<simulation::LogSource>{{"", "", "1", {}}},
         simulation::AttemptHeadText(HeadOf(job, loaded, exercise)));
@@ -91,11 +129,14 @@ void Run(const RobotJob& job) {
       simulation::RunRobot(loaded, exercise, ShippedTissuePresets(), options, log.get());
   if (log) {
     log->Close();
-    partial->PutInPlace();
+    if (!job.attempt.empty()) partial->PutInPlace();
   }
   for (const std::string& trouble : run.troubles)
     fmt::print(stderr, "note: {}\n", PrintableLine(trouble));
   Print(run.result);
+  if (records)
+    Keep(job, loaded, exercise, job.attempt.empty() ? partial->beside() : job.attempt, run.result,
+         *records);
   if (options.fault != RobotFault::kNone && run.result.outcome == AttemptOutcome::kPassed)
     fmt::print(stderr, "note: no criterion of {} shows the fault {}\n", exercise.id, job.fault);
   if (job.requires_pass && run.result.outcome != AttemptOutcome::kPassed)
@@ -123,6 +164,13 @@ void AddRobotJob(CLI::App& program) {
                                 "Attempt to write (.attempt), which `assess` judges. Default: the "
                                 "result is printed only."),
                 {"an attempt", FileForm::kUnique});
+  CLI::Option* trainee =
+      job->add_option("--trainee", own->trainee,
+                      "Code under which the records keep the attempt, in mode robot: such attempts "
+                      "open no gate, and stand in no group of trainees.")
+          ->type_name("CODE");
+  own->place = AddPlace(*job);
+  job->get_option("--records")->needs(trainee);
   job->add_option("--fault", own->fault, "Fault that a novice plants; none for an expert.")
       ->check(CLI::IsMember(FaultWords()))
       ->capture_default_str();

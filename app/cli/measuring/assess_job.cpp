@@ -134,14 +134,8 @@ AttemptReport AssessExercise(const AssessJob& job, const LoadedScene& loaded,
 
 // A report without pictures is one as well.
 void DrawPictures(const LoadedScene& loaded, AttemptReport& report) {
-  try {
-    const auto moments = MomentsOf(report.attempt, report.frames);
-    if (moments.empty()) return;
-    report.pictures =
-        DrawMoments(loaded, ShippedLooks(loaded.scene), report.frames, report.track, moments);
-  } catch (const Error& fault) {
-    Note("note", fmt::format("the report has no pictures: {}", fault.what()));
-  }
+  if (const std::string why = SetPictures(report, loaded, ShippedLooks(loaded.scene)); !why.empty())
+    Note("note", fmt::format("the report has no pictures: {}", why));
 }
 
 AttemptReport AssessHands(const AssessJob& job, const LoadedScene& loaded,

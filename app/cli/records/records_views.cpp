@@ -1,4 +1,4 @@
-// records list, show, reference and check: what the records hold, as text and as files.
+// records list, reference and check: what the records hold, as text and as files.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -20,7 +20,6 @@
 #include "app/records/people/reference_groups.h"
 #include "app/records/people/trainees.h"
 #include "app/report/assessment_file.h"
-#include "app/report/make_report.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 
@@ -85,6 +84,9 @@ void List(const ListJob& job) {
     WriteAtomically(job.json, json.dump(2) + "\n", Access::kPrivate);
     if (job.json == "-") return;
   }
+  // Attempts of robots have no standing.
+  if (standings.empty() && !job.trainee.empty() && !AttemptsOf(records, job.trainee).empty())
+    return ListAttempts(records, job.trainee);
   if (standings.empty()) {
     fmt::print("No attempt is recorded{}.\n",
                job.trainee.empty() ? "" : " of trainee " + job.trainee);
@@ -103,25 +105,6 @@ void List(const ListJob& job) {
     fmt::print("\n");
     ListAttempts(records, job.trainee);
   }
-}
-
-struct ShowJob {
-  std::shared_ptr<RecordsPlace> place;
-  std::string attempt, group;
-  fs::path report, json, csv;
-};
-
-void Show(const ShowJob& job) {
-  Records records(job.place->Connection());
-  std::string notice;
-  AttemptReport report = ReportFromRecords(records, job.attempt, notice);
-  if (!notice.empty()) fmt::print(stderr, "note: {}\n", PrintableLine(notice));
-  if (!job.group.empty()) SetGroup(report, records, job.group);
-  if (!job.report.empty()) WriteAtomically(job.report, AttemptPage(report), Access::kPrivate);
-  if (!job.json.empty()) WriteAtomically(job.json, AttemptJson(report), Access::kPrivate);
-  if (!job.csv.empty()) WriteAtomically(job.csv, MetricTable(report), Access::kPrivate);
-  if (job.report.empty() && job.json.empty() && job.csv.empty())
-    WriteAtomically("-", AttemptJson(report));
 }
 
 struct ReferenceJob {
@@ -200,27 +183,6 @@ void AddListRecords(CLI::App& records) {
                                 "The same as JSON; - is standard output, instead of the table."),
                 {"a list of standings", FileForm::kJson, "arthroscene.standings/"});
   files->Run([own] { List(*own); });
-}
-
-void AddShowRecords(CLI::App& records) {
-  const auto own = std::make_shared<ShowJob>();
-  CLI::App* job = records.add_subcommand(
-      "show", "Report an attempt: a page for print, JSON and a table. JSON without a flag.");
-  own->place = AddPlace(*job);
-  job->add_option("ATTEMPT", own->attempt, "Id of the attempt, as list shows it.")
-      ->required()
-      ->type_name("ID");
-  job->add_option("--reference", own->group,
-                  "Reference group of the exercise whose values the report shows.")
-      ->type_name("GROUP");
-  const auto files = JobFiles::Of(*job);
-  files->Output(job->add_option("--report", own->report, "Page to write (HTML), for A4."),
-                {"a page", FileForm::kTable, kAttemptPageHead});
-  files->Output(job->add_option("--json", own->json, "Report as JSON; - is standard output."),
-                {"a report", FileForm::kJson, "arthroscene.assessment/"});
-  files->Output(job->add_option("--csv", own->csv, "Metrics as a table; - is standard output."),
-                {"a table of metrics", FileForm::kTable, kMetricTableHead});
-  files->Run([own] { Show(*own); });
 }
 
 void AddReferenceRecords(CLI::App& records) {

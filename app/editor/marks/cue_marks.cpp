@@ -13,13 +13,14 @@ namespace arthro::app {
 namespace {
 
 constexpr unsigned kCue = 0xFF60E8F8, kShadow = 0xC0000000;  // yellow
+constexpr unsigned kOther = 0xFFE8D8C8;                      // targets that are not chosen
 
 // Draws over the picture's own window.
 class Marks {
  public:
   Marks(Ui& ui, const Area& picture, const simulation::ScopeView& view,
-        const simulation::ScopeOptics& optics)
-      : ui_(ui), picture_(picture), view_(view), optics_(optics) {}
+        const simulation::ScopeOptics& optics, unsigned colour = kCue)
+      : ui_(ui), picture_(picture), view_(view), optics_(optics), colour_(colour) {}
 
   void Mark(const glm::dvec3& x_in_portal, const std::string& name) const {
     const glm::dvec3 way = x_in_portal - view_.tip;
@@ -41,21 +42,22 @@ class Marks {
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const ImVec2 at = At(place);
     draw->AddCircle(at, ui_.Px(14), kShadow, 32, ui_.Px(4));
-    draw->AddCircle(at, ui_.Px(14), kCue, 32, ui_.Px(2));
+    draw->AddCircle(at, ui_.Px(14), colour_, 32, ui_.Px(2));
     draw->AddText({at.x + ui_.Px(18) + 1, at.y - ui_.Px(8) + 1}, kShadow, name.c_str());
-    draw->AddText({at.x + ui_.Px(18), at.y - ui_.Px(8)}, kCue, name.c_str());
+    draw->AddText({at.x + ui_.Px(18), at.y - ui_.Px(8)}, colour_, name.c_str());
   }
   void Arrow(const glm::dvec2& towards) const {
     const glm::dvec2 across(-towards.y, towards.x);
     ImGui::GetWindowDrawList()->AddTriangleFilled(At(0.97 * towards),
                                                   At(0.88 * towards + 0.05 * across),
-                                                  At(0.88 * towards - 0.05 * across), kCue);
+                                                  At(0.88 * towards - 0.05 * across), colour_);
   }
 
   Ui& ui_;
   const Area& picture_;
   const simulation::ScopeView& view_;
   const simulation::ScopeOptics& optics_;
+  unsigned colour_;
 };
 
 // Targets of the step under way, while its cue is due.
@@ -80,6 +82,12 @@ void MarkTargets(Ui& ui, const EditorState& state, const Area& window, const Are
   if (!step.running) return;
   const FixedWindow same(ui, "picture", window, kPictureWindow);
   Cue(Marks(ui, picture, view, optics), *step.running);
+}
+
+void MarkTarget(Ui& ui, const Area& picture, const simulation::ScopeView& view,
+                const simulation::ScopeOptics& optics, const glm::dvec3& x_in_portal,
+                const std::string& name, bool is_bright) {
+  Marks(ui, picture, view, optics, is_bright ? kCue : kOther).Mark(x_in_portal, name);
 }
 
 }  // namespace arthro::app

@@ -16,6 +16,7 @@ namespace {
 
 constexpr float kTopHeight = 48, kStatusHeight = 32, kSideWidth = 330;
 constexpr float kPracticeWidth = 370;
+constexpr float kLeastTitle = 60;       // room for the scene's name in the bar
 constexpr float kOutsideShare = 0.34f;  // share of the picture's shorter side, in practice
 
 // ImGui takes a size of 0 for "as large as the content", and textures need a pixel.
@@ -29,7 +30,26 @@ Layout AtLeastAPixel(const Layout& layout) {
           layout.shows_overview};
 }
 
+// The last command of each group on the bar.
+bool EndsGroup(std::string_view id) {
+  return id == "save-as" || id == "history" || id == "practise";
+}
+
 }  // namespace
+
+std::vector<std::string_view> BarCommands(float room,
+                                          const std::function<float(std::string_view)>& width_of) {
+  std::vector<std::string_view> shown = {"start-page", "new",  "open",    "save",    "save-as",
+                                         "undo",       "redo", "history", "practise"};
+  float width = 0;
+  for (const std::string_view id : shown) width += width_of(id);
+  for (const std::string_view id : {"save-as", "history", "new", "start-page", "open"}) {
+    if (width <= room) break;
+    width -= width_of(id);
+    std::erase(shown, id);
+  }
+  return shown;
+}
 
 Layout EditorLayout(float width, float height, float scale, const ViewLayout& views) {
   const float top = kTopHeight * scale, status = kStatusHeight * scale;
@@ -71,26 +91,23 @@ Layout PracticeLayout(float width, float height, float scale) {
 void TopBar(Ui& ui, EditorState& state, const Area& area) {
   const FixedWindow window(ui, "top", area, kBarWindow);
   FileMenu(ui, state);
+  const float help = ui.WidthOf("Help") + ui.Px(20);
+  const float between = ImGui::GetStyle().ItemSpacing.x, group = ui.Px(14);
+  const auto width_of = [&](std::string_view id) {
+    return ui.WidthOf(CommandOf(state, id).words) + 2 * ImGui::GetStyle().FramePadding.x + between +
+           (EndsGroup(id) ? group : 0);
+  };
   ImGui::SameLine();
-  for (const char* id : {"start-page", "new", "open", "save", "save-as"}) {
+  const float free = area.width - ImGui::GetCursorPosX() - help - ui.Px(24 + kLeastTitle);
+  for (const std::string_view id : BarCommands(free, width_of)) {
     CommandButton(ui, state, id);
-    ImGui::SameLine();
+    ImGui::SameLine(0, EndsGroup(id) ? group : between);
   }
-  ImGui::SameLine(0, ui.Px(14));
-  CommandButton(ui, state, "undo");
-  ImGui::SameLine();
-  CommandButton(ui, state, "redo");
-  ImGui::SameLine();
-  CommandButton(ui, state, "history");
-  ImGui::SameLine(0, ui.Px(14));
-  CommandButton(ui, state, "practise");
-  ImGui::SameLine(0, ui.Px(14));
 
   // The scene's name, with a dot before it while there are changes that are not saved.
   const std::string title_of_scene = state.document().scene.title;
   const std::string name = title_of_scene.empty() ? ui.In("Untitled") : title_of_scene;
   const std::string title = (state.history.IsSaved() ? "" : "• ") + name;
-  const float help = ui.WidthOf("Help") + ui.Px(20);
   ImGui::AlignTextToFramePadding();
   const float room = area.width - help - ui.Px(24) - ImGui::GetCursorPosX();
   ImGui::PushClipRect(ImGui::GetCursorScreenPos(),

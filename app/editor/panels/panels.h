@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -24,6 +26,11 @@ struct Layout {
 };
 Layout EditorLayout(float width, float height, float scale, const ViewLayout& views = {});
 Layout PracticeLayout(float width, float height, float scale);
+
+// Commands of the bar on top that fit into `room`, px: in a narrow window those leave first that
+// the File menu has as well.
+std::vector<std::string_view> BarCommands(float room,
+                                          const std::function<float(std::string_view)>& width_of);
 
 // ---- The pages. Each fills its area. ----
 void TopBar(Ui& ui, EditorState& state, const Area& area);

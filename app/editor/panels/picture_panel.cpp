@@ -2,8 +2,8 @@
 // it.
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <utility>
+#include <vector>
 
 #include <imgui.h>
 
@@ -98,13 +98,21 @@ void PoseStrip(Ui& ui, EditorState& state, const ImVec2& corner, float total_wid
                    RadiansFromDegrees(roll), MetresFromMm(mm)};
 }
 
-// Commands over the upper right corner of a picture, the last one at the edge.
-void CornerButtons(Ui& ui, EditorState& state, const Area& area,
-                   std::initializer_list<const char*> ids) {
-  const float gap = ui.Px(6), edge = ui.Px(8), padding = 2 * ImGui::GetStyle().FramePadding.x;
-  float width = 0;
+constexpr float kCornerGap = 6, kCornerEdge = 8;  // px at scale 1
+
+float CornerWidth(const Ui& ui, const EditorState& state, const std::vector<const char*>& ids) {
+  const float padding = 2 * ImGui::GetStyle().FramePadding.x, gap = ui.Px(kCornerGap);
+  float width = ui.Px(kCornerEdge) - gap;
   for (const char* id : ids) width += ui.WidthOf(CommandOf(state, id).words) + padding + gap;
-  float x = area.x + area.width - width - edge + gap;
+  return width;
+}
+
+// Commands over the upper right corner of a picture, the last one at the edge; in a narrow picture
+// the first ones are left out.
+void CornerButtons(Ui& ui, EditorState& state, const Area& area, std::vector<const char*> ids) {
+  while (ids.size() > 1 && CornerWidth(ui, state, ids) > area.width) ids.erase(ids.begin());
+  const float gap = ui.Px(kCornerGap), edge = ui.Px(kCornerEdge);
+  float x = area.x + area.width - CornerWidth(ui, state, ids);
   for (const char* id : ids) {
     ImGui::SetCursorScreenPos({x, area.y + edge});
     CommandButton(ui, state, id);
@@ -246,12 +254,13 @@ OverviewInput OverviewPicture(Ui& ui, EditorState& state, const Area& area, unsi
                               const std::optional<glm::dvec2>& handle) {
   const FixedWindow window(ui, "overview", area, kPictureWindow);
   // The commands come first where there is no room for both.
-  return OverviewArea(ui, area, texture, area.width > ui.Px(300), [&] {
+  std::vector<const char*> ids = {"fit-overview", "view-both"};
+  if (state.views.shown == ViewLayout::Shown::kBoth)
+    ids = {"fit-overview", "swap-views", "view-overview"};
+  const float label = ui.WidthOf("Overview") + ui.Px(24);
+  return OverviewArea(ui, area, texture, area.width > CornerWidth(ui, state, ids) + label, [&] {
     if (handle) DrawHandle(ui, area, *handle);
-    if (state.views.shown == ViewLayout::Shown::kBoth)
-      CornerButtons(ui, state, area, {"fit-overview", "swap-views", "view-overview"});
-    else
-      CornerButtons(ui, state, area, {"fit-overview", "view-both"});
+    CornerButtons(ui, state, area, ids);
   });
 }
 

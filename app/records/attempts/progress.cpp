@@ -15,17 +15,17 @@ E ChoiceOf(const Choices<E>& choices, const std::string& word) {
 
 std::vector<AttemptPoint> ProgressOf(Records& records, const std::string& trainee_code,
                                      const std::string& exercise_hash, const std::string& metric,
-                                     const std::string& part) {
+                                     const std::string& part, Performers performers) {
   std::vector<AttemptPoint> points;
   for (const Row& row : records.database().Ask(
            R"(SELECT attempts.id, attempts.started, attempts.mode, attempts.outcome, metrics.value
     FROM attempts LEFT JOIN metrics ON metrics.attempt = attempts.id AND metrics.name = :metric
     AND (metrics.part = :part OR :any = 1)
     WHERE attempts.trainee = (SELECT id FROM trainees WHERE code = :code)
-    AND attempts.exercise = :exercise AND attempts.mode <> 'robot'
+    AND attempts.exercise = :exercise AND (attempts.mode = 'robot') = (:robots = 1)
     AND attempts.outcome <> 'running' ORDER BY attempts.started, attempts.id)",
            {metric, part, static_cast<std::int64_t>(part.empty() ? 1 : 0), trainee_code,
-            exercise_hash})) {
+            exercise_hash, static_cast<std::int64_t>(performers == Performers::kRobots)})) {
     AttemptPoint point;
     point.id = TextOf(row[0]);
     // With any part an attempt may have several values; the first one counts.

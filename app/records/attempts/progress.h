@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/records/attempts/attempt_record.h"
+#include "app/records/attempts/standings.h"
 #include "app/records/store/records.h"
 
 namespace arthro::app {
@@ -18,9 +19,10 @@ struct AttemptPoint {
   std::optional<double> value;  // SI; none: it was not measured
 };
 
-// Oldest first, without robots and without attempts that run. `part` empty: any part.
+// Oldest first, without attempts that run. `part` empty: any part.
 std::vector<AttemptPoint> ProgressOf(Records& records, const std::string& trainee_code,
                                      const std::string& exercise_hash, const std::string& metric,
-                                     const std::string& part);
+                                     const std::string& part,
+                                     Performers performers = Performers::kPeople);
 
 }  // namespace arthro::app

@@ -16,22 +16,23 @@ constexpr const char* kStandings =
     FROM (SELECT trainee, exercise, CAST(count(*) AS BIGINT) AS tries,
     CAST(sum(CASE outcome WHEN 'passed' THEN 1 ELSE 0 END) AS BIGINT) AS passes,
     min(CASE outcome WHEN 'passed' THEN duration END) AS best, max(started) AS last
-    FROM attempts WHERE mode <> 'robot' AND outcome <> 'running' {} GROUP BY trainee, exercise)
+    FROM attempts WHERE mode {} 'robot' AND outcome <> 'running' {} GROUP BY trainee, exercise)
     AS counts
     JOIN trainees ON trainees.id = counts.trainee
     LEFT JOIN cohorts ON cohorts.id = trainees.cohort
     JOIN exercises ON exercises.hash = counts.exercise
     JOIN attempts ON attempts.trainee = counts.trainee AND attempts.exercise = counts.exercise
-    AND attempts.started = counts.last AND attempts.mode <> 'robot'
+    AND attempts.started = counts.last AND attempts.mode {} 'robot'
     AND attempts.outcome <> 'running'
     LEFT JOIN gates ON gates.trainee = counts.trainee AND gates.exercise = counts.exercise {}
     ORDER BY trainees.code, exercises.id, exercises.version)";
 
 std::vector<Standing> Ask(Records& records, const std::string& inner, const std::string& outer,
-                          const Row& values) {
+                          const Row& values, Performers performers = Performers::kPeople) {
   std::vector<Standing> standings;
-  for (const Row& row :
-       records.database().Ask(fmt::format(fmt::runtime(kStandings), inner, outer), values)) {
+  const char* mode = performers == Performers::kRobots ? "=" : "<>";
+  for (const Row& row : records.database().Ask(
+           fmt::format(fmt::runtime(kStandings), mode, inner, mode, outer), values)) {
     const Cell nothing;
     Standing own;
     own.trainee = TextOf(row[0]);
@@ -77,7 +78,8 @@ std::vector<Standing> StandingsOf(Records& records, const std::string& trainee_c
   return StandingsOf(records, std::span(&trainee_code, 1));
 }
 
-std::vector<Standing> StandingsOf(Records& records, std::span<const std::string> trainee_codes) {
+std::vector<Standing> StandingsOf(Records& records, std::span<const std::string> trainee_codes,
+                                  Performers performers) {
   if (trainee_codes.empty()) return {};
   std::string names;
   Row values;
@@ -88,8 +90,9 @@ std::vector<Standing> StandingsOf(Records& records, std::span<const std::string>
   const std::string where =
       fmt::format("AND {{}} IN (SELECT id FROM trainees WHERE code IN ({}))", names);
   const auto of = [&](const char* column) { return fmt::format(fmt::runtime(where), column); };
-  auto standings = Ask(records, of("trainee"), "", values);
-  SetTestOutcomes(records, of("attempts.trainee"), values, standings);
+  auto standings = Ask(records, of("trainee"), "", values, performers);
+  if (performers == Performers::kPeople)
+    SetTestOutcomes(records, of("attempts.trainee"), values, standings);
   return standings;
 }
 

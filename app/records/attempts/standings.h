@@ -21,10 +21,14 @@ struct Standing {
   bool is_gate_opened = false;  // an instructor did it
 };
 
-// One row per exercise that the trainee has tried. Robots do not count.
+// Whose attempts count. Those of robots stand apart, and open no gate.
+enum class Performers { kPeople, kRobots };
+
+// One row per exercise that the trainee has tried.
 std::vector<Standing> StandingsOf(Records& records, const std::string& trainee_code);
 // The same for some trainees, in two statements; only their part of the index is read.
-std::vector<Standing> StandingsOf(Records& records, std::span<const std::string> trainee_codes);
+std::vector<Standing> StandingsOf(Records& records, std::span<const std::string> trainee_codes,
+                                  Performers performers = Performers::kPeople);
 // One row per trainee and exercise; an empty name means every cohort.
 std::vector<Standing> CohortStandings(Records& records, const std::string& cohort_name = "");
 

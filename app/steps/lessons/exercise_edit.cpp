@@ -8,6 +8,10 @@
 #include <glm/geometric.hpp>
 
 #include "app/state/edits.h"
+#include "simulation/core/units.h"
+#include "simulation/tissue/body/tissue_preset.h"
+#include "simulation/training/metrics/metric_words.h"
+#include "simulation/training/metrics/metrics.h"
 
 namespace arthro::app {
 namespace {
@@ -42,6 +46,21 @@ ExerciseStep StepOfKind(int kind, std::index_sequence<kinds...>) {
   return step;
 }
 
+// The pose in which the author holds the scope.
+StartPose ViewOf(const EditorState& state) {
+  return {state.scope.latitude, state.scope.longitude, state.scope.roll, state.scope.depth};
+}
+
+// Lists of the step that name targets.
+std::vector<std::vector<std::string>*> NamesIn(ExerciseStep& step) {
+  std::vector<std::vector<std::string>*> lists = {&BaseOf(step).targets};
+  if (auto* track = std::get_if<TrackStep>(&step)) lists.push_back(&track->path);
+  if (auto* follow = std::get_if<FollowStep>(&step)) lists.push_back(&follow->path);
+  if (auto* transfer = std::get_if<TransferStep>(&step)) lists.push_back(&transfer->bodies);
+  if (auto* resect = std::get_if<ResectStep>(&step)) lists.push_back(&resect->regions);
+  return lists;
+}
+
 }  // namespace
 
 bool HasExercise(const EditorState& state) {
@@ -61,8 +80,9 @@ void EditExercise(EditorState& state, const std::string& name, const std::string
 }
 
 void AddExercise(EditorState& state) {
-  Edit(state, "New exercise", "", [](authoring::Document& document) {
+  Edit(state, "New exercise", "", [&](authoring::Document& document) {
     Exercise exercise;
+    exercise.setup.scope = ViewOf(state);
     exercise.id = FreeId(ExercisesOf(document), "exercise");
     exercise.title = "New exercise";
     ExercisesOf(document).push_back(exercise);
@@ -70,6 +90,12 @@ void AddExercise(EditorState& state) {
   LessonsStep& step = *state.steps.lessons;
   step.chosen = static_cast<int>(state.document().scene.exercises.size()) - 1;
   step.target = step.step = step.criterion = -1;
+}
+
+void BeginWithThisView(EditorState& state) {
+  EditExercise(state, "View at the begin", "",
+               [&](Exercise& changed) { changed.setup.scope = ViewOf(state); });
+  state.message = "An attempt begins with the view that the picture shows now.";
 }
 
 void CopyExercise(EditorState& state) {
@@ -120,6 +146,28 @@ void RemoveTarget(EditorState& state, int target) {
   state.steps.lessons->target = -1;
 }
 
+void RenameTarget(EditorState& state, int target, const std::string& name) {
+  const auto& targets = ChosenExercise(state)->targets;
+  const std::string old = targets[static_cast<std::size_t>(target)].id;
+  if (name == old) return;
+  if (name.empty() || std::ranges::count(targets, name, &ExerciseTarget::id) > 0) {
+    state.message = name.empty() ? "A target needs a name."
+                                 : fmt::format("Another target is called \"{}\".", name);
+    return;
+  }
+  EditExercise(state, "Rename target", "", [&](Exercise& changed) {
+    const auto rename = [&](std::string& id) {
+      if (id == old) id = name;
+    };
+    rename(changed.targets[static_cast<std::size_t>(target)].id);
+    for (AvoidZone& zone : changed.avoid) rename(zone.target);
+    for (ExerciseStep& step : changed.steps) {
+      for (std::vector<std::string>* ids : NamesIn(step)) std::ranges::for_each(*ids, rename);
+      if (auto* recover = std::get_if<RecoverStep>(&step)) rename(recover->source);
+    }
+  });
+}
+
 void AddStep(EditorState& state, int kind) {
   EditExercise(state, "New step", "", [&](Exercise& changed) {
     ExerciseStep step =
@@ -149,13 +197,40 @@ void MoveStep(EditorState& state, int step, int by) {
 
 void AddCriterion(EditorState& state) {
   EditExercise(state, "New criterion", "", [](Exercise& changed) {
-    Criterion criterion;
-    criterion.metric = "task_time";
-    criterion.max = 120;
-    criterion.source = "start value";
-    changed.criteria.push_back(criterion);
+    // The usual metrics in turn; another one is chosen on the page.
+    std::string metric = "task_time";
+    for (const char* usual : {"tool_loss", "peak_force", "task_time"})
+      if (std::ranges::count(changed.criteria, usual, &Criterion::metric) == 0) metric = usual;
+    changed.criteria.push_back(StartCriterion(metric));
   });
   state.steps.lessons->criterion = static_cast<int>(ChosenExercise(state)->criteria.size()) - 1;
+}
+
+Criterion StartCriterion(const std::string& metric) {
+  constexpr double kTime = 120, kLength = 3e-3, kArea = 1e-5, kVolume = 4e-9, kShare = 0.9;
+  Criterion criterion;
+  criterion.metric = metric;
+  if (const auto parts = simulation::PartsOf(metric); !parts.empty())
+    criterion.part = parts.front();
+  criterion.source = "start value";
+  for (const simulation::Metric& known : simulation::EveryMetric()) {
+    if (known.id != metric) continue;
+    if (known.is_more_better) {
+      criterion.min = known.unit.empty() ? kShare : kLength;
+      return criterion;
+    }
+    if (known.unit == "s") criterion.max = kTime;
+    if (known.unit == "N") {
+      criterion.max = simulation::kSafeProbingForce;
+      criterion.source = "safe maximum of probing, PMC3023859";
+    }
+    if (known.unit == "m") criterion.max = kLength;
+    if (known.unit == "m2") criterion.max = kArea;
+    if (known.unit == "m3") criterion.max = kVolume;
+    if (known.unit == "rad") criterion.max = 10 * kRadianPerDegree;
+  }
+  if (!criterion.max) criterion.max = 0;
+  return criterion;
 }
 
 bool TakesTarget(const EditorState& state) {

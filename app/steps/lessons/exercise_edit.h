@@ -10,7 +10,9 @@
 namespace arthro::app {
 
 bool HasExercise(const EditorState& state);
+// Begins with the view of the author.
 void AddExercise(EditorState& state);
+void BeginWithThisView(EditorState& state);
 void CopyExercise(EditorState& state);
 void RemoveExercise(EditorState& state);
 
@@ -20,11 +22,16 @@ void EditExercise(EditorState& state, const std::string& name, const std::string
 
 void AddTarget(EditorState& state);
 void RemoveTarget(EditorState& state, int target);
+// Names a target anew, wherever the exercise speaks of it; a name that another one has is refused
+// with a message.
+void RenameTarget(EditorState& state, int target, const std::string& name);
 void AddStep(EditorState& state, int kind);
 void RemoveStep(EditorState& state, int step);
 // Exchanges a step with the one before or after it.
 void MoveStep(EditorState& state, int step, int by);
 void AddCriterion(EditorState& state);
+// A criterion of this metric with limits to begin with: in the tool that is asked for most.
+Criterion StartCriterion(const std::string& metric);
 // Point of a tissue on a line of sight.
 struct TissueHit {
   int tissue = 0;

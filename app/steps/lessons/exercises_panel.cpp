@@ -6,8 +6,6 @@
 #include "app/panels/options_panel.h"
 #include "app/state/edits.h"
 #include "app/steps/lessons/exercise_edit.h"
-#include "app/steps/lessons/value_words.h"
-#include "simulation/training/metrics/metrics.h"
 
 namespace arthro::app {
 namespace {
@@ -69,23 +67,28 @@ void Words(Ui& ui, EditorState& state, const Exercise& exercise) {
     EditExercise(state, "Brief", "exercise-brief", [&](Exercise& e) { e.brief = brief; });
 }
 
-void Targets(Ui& ui, EditorState& state, const Exercise& exercise) {
+void Targets(Ui& ui, EditorState& state) {
   LessonsStep& step = *state.steps.lessons;
-  for (std::size_t i = 0; i < exercise.targets.size(); ++i) {
-    const ExerciseTarget& target = exercise.targets[i];
+  // Above the list, so that it stays where it is while the list grows.
+  if (Button(ui, "Add a target by a click", true, {-FLT_MIN, 0})) AddTarget(state);
+  const auto targets = ChosenExercise(state)->targets;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const ExerciseTarget& target = targets[i];
     if (ListEntry(ui, fmt::format("{}, {}##target{}", target.id, PlaceWords(target), i),
                   static_cast<int>(i) == step.target)) {
       step.target = static_cast<int>(i);
       step.takes_target = false;
     }
   }
-  if (Button(ui, "Add a target by a click", true, {-FLT_MIN, 0})) AddTarget(state);
   const Exercise& now = *ChosenExercise(state);
   if (step.target < 0 || step.target >= static_cast<int>(now.targets.size())) return;
   const auto chosen = static_cast<std::size_t>(step.target);
   if (ToggleButton(ui, "Place it by a click", step.takes_target, true, {-FLT_MIN, 0},
                    "Click in the scope's picture where the target lies."))
     step.takes_target = !step.takes_target;
+  std::string name = now.targets[chosen].id;
+  if (TextField(ui, "Name of the target", name, "for example: tibial spine"))
+    RenameTarget(state, step.target, name);
   double mm = 1e3 * now.targets[chosen].radius;
   const Change change = Slider(ui, "Radius of the target", mm, 0.5, 10, "%.1f mm");
   if (change)
@@ -129,74 +132,29 @@ void ChosenStep(Ui& ui, EditorState& state, std::size_t chosen) {
   if (panel.released) EndDrag(state);
 }
 
-void Steps(Ui& ui, EditorState& state, const Exercise& exercise) {
+void Steps(Ui& ui, EditorState& state) {
   LessonsStep& step = *state.steps.lessons;
-  for (std::size_t i = 0; i < exercise.steps.size(); ++i) {
-    const StepBase& base = BaseOf(exercise.steps[i]);
-    if (ListEntry(ui,
-                  fmt::format("{}. {}: {}##step{}", i + 1, KindOf(exercise.steps[i]),
-                              base.text.empty() ? base.id : base.text, i),
-                  static_cast<int>(i) == step.step))
-      step.step = static_cast<int>(i);
-  }
   int kind = -1;
   if (Combo(ui, "Add a step", kind,
             KindWords(std::make_index_sequence<std::variant_size_v<ExerciseStep>>()),
             "A step takes all targets at first."))
     AddStep(state, kind);
+  const auto steps = ChosenExercise(state)->steps;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::string words = WordsOfField(KindOf(steps[i])), &text = BaseOf(steps[i]).text;
+    if (ListEntry(
+            ui, fmt::format("{}. {}##step{}", i + 1, text.empty() ? words : words + ": " + text, i),
+            static_cast<int>(i) == step.step))
+      step.step = static_cast<int>(i);
+  }
   if (step.step < 0 || step.step >= static_cast<int>(ChosenExercise(state)->steps.size())) return;
-  const float third = (ImGui::GetContentRegionAvail().x - 2 * ui.Px(6)) / 3;
-  if (Button(ui, "Earlier", step.step > 0, {third, 0})) MoveStep(state, step.step, -1);
+  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(6)) / 2;
+  const int last = static_cast<int>(ChosenExercise(state)->steps.size()) - 1;
+  if (Button(ui, "Earlier", step.step > 0, {half, 0})) MoveStep(state, step.step, -1);
   ImGui::SameLine(0, ui.Px(6));
-  if (Button(ui, "Later", true, {third, 0})) MoveStep(state, step.step, 1);
-  ImGui::SameLine(0, ui.Px(6));
-  if (Button(ui, "Remove step", true, {third, 0})) return RemoveStep(state, step.step);
+  if (Button(ui, "Later", step.step < last, {half, 0})) MoveStep(state, step.step, 1);
+  if (Button(ui, "Remove step", true, {-FLT_MIN, 0})) return RemoveStep(state, step.step);
   ChosenStep(ui, state, static_cast<std::size_t>(step.step));
-}
-
-void Criteria(Ui& ui, EditorState& state, const Exercise& exercise) {
-  LessonsStep& step = *state.steps.lessons;
-  for (std::size_t i = 0; i < exercise.criteria.size(); ++i) {
-    const Criterion& criterion = exercise.criteria[i];
-    if (ListEntry(ui,
-                  fmt::format("{} {}##criterion{}", MetricWords(criterion.metric, criterion.part),
-                              LimitsOfMetric(criterion.metric, criterion.min, criterion.max), i),
-                  static_cast<int>(i) == step.criterion))
-      step.criterion = static_cast<int>(i);
-  }
-  if (Button(ui, "Add a criterion", true, {-FLT_MIN, 0})) AddCriterion(state);
-  const Exercise& now = *ChosenExercise(state);
-  if (step.criterion < 0 || step.criterion >= static_cast<int>(now.criteria.size())) return;
-  const auto chosen = static_cast<std::size_t>(step.criterion);
-  Criterion changed = now.criteria[chosen];
-  std::vector<std::string> words;
-  int metric = -1;
-  for (const simulation::Metric& known : simulation::EveryMetric()) {
-    if (known.id == changed.metric) metric = static_cast<int>(words.size());
-    words.push_back(MetricWords(std::string(known.id), ""));
-  }
-  bool is_changed = false;
-  if (Combo(ui, "Metric", metric, words)) {
-    changed.metric = simulation::EveryMetric()[static_cast<std::size_t>(metric)].id;
-    is_changed = true;
-  }
-  is_changed = TextField(ui, "Part", changed.part, "scope, instrument or both") || is_changed;
-  double most = changed.max.value_or(0);
-  if (NumberField(ui, "At most (SI units)", most, 0.1, 0, 1e6, "%.4g")) {
-    changed.max = most;
-    is_changed = true;
-  }
-  is_changed =
-      TextField(ui, "Source of the limit", changed.source, "publication or person") || is_changed;
-  if (is_changed)
-    EditExercise(state, "Criterion", "criterion",
-                 [&](Exercise& e) { e.criteria[chosen] = changed; });
-  if (Button(ui, "Remove criterion", true, {-FLT_MIN, 0})) {
-    EditExercise(state, "Remove criterion", "", [&](Exercise& e) {
-      e.criteria.erase(e.criteria.begin() + static_cast<std::ptrdiff_t>(chosen));
-    });
-    step.criterion = -1;
-  }
 }
 
 }  // namespace
@@ -206,9 +164,12 @@ void ExercisesPanel(Ui& ui, EditorState& state) {
   if (ChosenExercise(state) == nullptr) return;
   Gap(ui);
   Words(ui, state, *ChosenExercise(state));
-  if (Section(ui, "Targets", true)) Targets(ui, state, *ChosenExercise(state));
-  if (Section(ui, "Steps of the exercise", true)) Steps(ui, state, *ChosenExercise(state));
-  if (Section(ui, "Criteria of a pass")) Criteria(ui, state, *ChosenExercise(state));
+  if (Button(ui, "Begin with this view", true, {-FLT_MIN, 0},
+             "The scope begins an attempt where you hold it now."))
+    BeginWithThisView(state);
+  if (Section(ui, "Targets", true)) Targets(ui, state);
+  if (Section(ui, "Steps of the exercise", true)) Steps(ui, state);
+  if (Section(ui, "Criteria of a pass")) CriteriaPanel(ui, state);
 }
 
 }  // namespace arthro::app

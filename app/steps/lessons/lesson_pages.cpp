@@ -1,6 +1,7 @@
 // Pages of a lesson: what the exercise asks for, the attempt that runs, and its result.
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -33,7 +34,7 @@ void AskedFor(Ui& ui, const Exercise& exercise) {
   }
   for (const Criterion& criterion : exercise.criteria) {
     Text(ui, fmt::format("{} {}", MetricWords(criterion.metric, criterion.part),
-                         LimitsOfMetric(criterion.metric, criterion.min, criterion.max)));
+                         LimitsOfMetric(criterion.metric, {criterion.min, criterion.max})));
     if (!criterion.source.empty()) QuietText(ui, criterion.source);
   }
 }
@@ -124,7 +125,7 @@ void UnderWay(Ui& ui, EditorState& state) {
     Text(ui, "Free practice: end the attempt when you are ready.");
   }
   Gap(ui);
-  QuietText(ui, fmt::format("Force on the tip {:.2f} N", strip.force));
+  if (!strip.force_band) QuietText(ui, fmt::format("Force on the tip {:.2f} N", strip.force));
   const float foot = 2 * ui.Px(50);
   const float free = ImGui::GetContentRegionAvail().y - foot;
   if (free > 0) ImGui::Dummy({0, free - ImGui::GetStyle().ItemSpacing.y});
@@ -151,9 +152,15 @@ const char* OutcomeWords(AttemptOutcome outcome) {
   return "Running";
 }
 
+constexpr auto kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
+
+// A value does not stand far from its name on a wide screen.
+ImVec2 TableSize(const Ui& ui) {
+  return {std::min(ImGui::GetContentRegionAvail().x, ui.Px(760)), 0};
+}
+
 void Criteria(Ui& ui, const simulation::AttemptResult& result) {
-  if (!ImGui::BeginTable("criteria", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp))
-    return;
+  if (!ImGui::BeginTable("criteria", 4, kTable, TableSize(ui))) return;
   for (const simulation::CriterionResult& criterion : result.criteria) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -161,12 +168,54 @@ void Criteria(Ui& ui, const simulation::AttemptResult& result) {
     ImGui::TableNextColumn();
     Text(ui, MetricWords(criterion.metric, criterion.part));
     ImGui::TableNextColumn();
-    Text(ui, criterion.value ? ValueOfMetric(criterion.metric, *criterion.value) : "not measured");
+    Text(ui, ValueOfMetric(criterion.metric, criterion.value, {criterion.low, criterion.high}));
     ImGui::TableNextColumn();
-    QuietText(ui, LimitsOfMetric(criterion.metric, criterion.low, criterion.high) +
+    QuietText(ui, LimitsOfMetric(criterion.metric, {criterion.low, criterion.high}) +
                       (criterion.is_start_value ? " (start value)" : ""));
   }
   ImGui::EndTable();
+}
+
+void Measured(Ui& ui, const simulation::AttemptResult& result) {
+  if (!ImGui::BeginTable("measured", 2, kTable, TableSize(ui))) return;
+  for (const simulation::MetricValue& value : result.metrics) {
+    if (!value.value || value.metric == nullptr) continue;
+    const std::string id(value.metric->id);
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    Text(ui, MetricWords(id, value.part));
+    ImGui::TableNextColumn();
+    Text(ui, ValueOfMetric(id, value.value));
+  }
+  ImGui::EndTable();
+}
+
+// Commands at the foot of a page, in as many rows as they need.
+struct FootCommand {
+  const char* id;
+  float width;  // px at scale 1
+};
+constexpr FootCommand kSummaryFoot[] = {{"repeat-exercise", 120}, {"attempt-debrief", 130},
+                                        {"attempt-report", 150},  {"use-as-expert", 160},
+                                        {"trainee-page", 150},    {"instructor-page", 170},
+                                        {"close-lesson", 110}};
+
+// Calls `draw(command, begins_row)` for each; returns the number of rows.
+template <class Draw>
+int InRows(const Ui& ui, std::span<const FootCommand> commands, float room, const Draw& draw) {
+  const float between = ImGui::GetStyle().ItemSpacing.x;
+  int rows = 0;
+  float left = 0;
+  for (const FootCommand& command : commands) {
+    const bool begins_row = rows == 0 || left < ui.Px(command.width) + between;
+    if (begins_row) {
+      ++rows;
+      left = room;
+    }
+    left -= ui.Px(command.width) + between;
+    draw(command, begins_row);
+  }
+  return rows;
 }
 
 void Summary(Ui& ui, EditorState& state, const FinishedAttempt& attempt) {
@@ -177,14 +226,18 @@ void Summary(Ui& ui, EditorState& state, const FinishedAttempt& attempt) {
   if (!result.reason.empty()) Text(ui, result.reason);
   if (!attempt.started.empty())
     QuietText(ui, fmt::format("Trainee {}, {} UTC, {}", attempt.trainee, TimeWords(attempt.started),
-                              attempt.is_test ? "test" : "practice"));
+                              attempt.is_robot  ? "robot"
+                              : attempt.is_test ? "test"
+                                                : "practice"));
   Notices(ui, attempt);
   if (!attempt.kept.empty())
     ColouredText(ui, attempt.kept, HasUnkeptAttempt(state) ? kBad : kQuiet);
   if (HasUnkeptAttempt(state)) CommandButton(ui, state, "keep-attempt", {ui.Px(170), ui.Px(44)});
   Gap(ui);
   // The commands stay in sight below the values.
-  const float foot = ui.Px(54);
+  const float room = ImGui::GetContentRegionAvail().x + ImGui::GetStyle().ItemSpacing.x;
+  const int rows = InRows(ui, kSummaryFoot, room, [](const FootCommand&, bool) {});
+  const float foot = static_cast<float>(rows) * ui.Px(50) + ui.Px(4);
   ImGui::BeginChild("values", {0, std::max(ui.Px(80), ImGui::GetContentRegionAvail().y - foot)});
   if (!result.criteria.empty()) {
     Heading(ui, "Criteria");
@@ -192,22 +245,12 @@ void Summary(Ui& ui, EditorState& state, const FinishedAttempt& attempt) {
     Gap(ui);
   }
   Heading(ui, "Measured");
-  for (const simulation::MetricValue& value : result.metrics)
-    if (value.value && value.metric != nullptr)
-      Text(ui, fmt::format("{}: {}", MetricWords(std::string(value.metric->id), value.part),
-                           ValueOfMetric(std::string(value.metric->id), *value.value)));
+  Measured(ui, result);
   ImGui::EndChild();
-  CommandButton(ui, state, "repeat-exercise", {ui.Px(150), ui.Px(44)});
-  ImGui::SameLine();
-  CommandButton(ui, state, "attempt-debrief", {ui.Px(150), ui.Px(44)});
-  ImGui::SameLine();
-  CommandButton(ui, state, "attempt-report", {ui.Px(150), ui.Px(44)});
-  ImGui::SameLine();
-  CommandButton(ui, state, "use-as-expert", {ui.Px(160), ui.Px(44)});
-  ImGui::SameLine();
-  CommandButton(ui, state, "trainee-page", {ui.Px(170), ui.Px(44)});
-  ImGui::SameLine();
-  CommandButton(ui, state, "close-lesson", {ui.Px(120), ui.Px(44)});
+  InRows(ui, kSummaryFoot, room, [&](const FootCommand& command, bool begins_row) {
+    if (!begins_row) ImGui::SameLine();
+    CommandButton(ui, state, command.id, {ui.Px(command.width), ui.Px(44)});
+  });
 }
 
 }  // namespace

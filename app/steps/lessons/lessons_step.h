@@ -32,7 +32,7 @@ struct StartBoard;      // keeping/start_board.h
 struct FinishedAttempt {
   Exercise exercise;
   std::string trainee;  // code
-  bool is_test = false;
+  bool is_test = false, is_robot = false;
   simulation::AttemptResult result;
   std::vector<simulation::AttemptFrame> frames;
   // Tissue of the frames; null: it was not recorded, or in another scene. Shared by copies of this,
@@ -139,6 +139,7 @@ bool MayKeepRating(const EditorState& state);
 void KeepRating(EditorState& state);
 
 void ExercisesPanel(Ui& ui, EditorState& state);                     // the editor's step
+void CriteriaPanel(Ui& ui, EditorState& state);                      // part of it
 void TraineePage(Ui& ui, EditorState& state);                        // inside of the page below
 void InstructorPage(Ui& ui, EditorState& state);                     // the same
 void LessonPagePanel(Ui& ui, EditorState& state, const Area& area);  // instead of the practice's

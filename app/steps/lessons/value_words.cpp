@@ -1,6 +1,5 @@
 #include "app/steps/lessons/value_words.h"
 
-#include <algorithm>
 #include <string_view>
 
 #include "simulation/training/metrics/metrics.h"
@@ -16,30 +15,27 @@ std::string UnitOfMetric(std::string_view id) {
 
 }  // namespace
 
-std::string ValueOfMetric(const std::string& metric, double value) {
-  return ValueWords(value, UnitOfMetric(metric));
+std::string ValueOfMetric(const std::string& metric, const std::optional<double>& value,
+                          const ValueLimits& limits) {
+  return ValueWords(value, UnitOfMetric(metric), limits);
+}
+
+std::string MetricHelp(const std::string& metric) {
+  for (const simulation::Metric& known : simulation::EveryMetric())
+    if (known.id == metric) return std::string(known.help);
+  return "";
 }
 
 double ShownValueOfMetric(const std::string& metric, double value) {
-  return value * ShownUnitOf(UnitOfMetric(metric)).factor;
+  return value * simulation::ShownUnitOf(UnitOfMetric(metric)).factor;
 }
 
 std::string ShownUnitOfMetric(const std::string& metric) {
-  return ShownUnitOf(UnitOfMetric(metric)).words;
+  return simulation::ShownUnitOf(UnitOfMetric(metric)).words;
 }
 
-std::string LimitsOfMetric(const std::string& metric, const std::optional<double>& low,
-                           const std::optional<double>& high) {
-  CriterionRow criterion;
-  criterion.low = low;
-  criterion.high = high;
-  return LimitWords(criterion, UnitOfMetric(metric));
-}
-
-std::string TimeWords(const std::string& utc) {
-  std::string words = utc.substr(0, 16);  // "2026-11-24T02:10"
-  std::ranges::replace(words, 'T', ' ');
-  return words;
+std::string LimitsOfMetric(const std::string& metric, const ValueLimits& limits) {
+  return LimitWords(limits, UnitOfMetric(metric));
 }
 
 }  // namespace arthro::app

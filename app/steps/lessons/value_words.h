@@ -8,16 +8,15 @@
 
 namespace arthro::app {
 
-// Value of the metric with this id.
-std::string ValueOfMetric(const std::string& metric, double value);
+// Value of the metric with this id, beside its limits.
+std::string ValueOfMetric(const std::string& metric, const std::optional<double>& value,
+                          const ValueLimits& limits = {});
+// Help of the metric with this id, one sentence.
+std::string MetricHelp(const std::string& metric);
 // A value in the unit that a person reads, and that unit.
 double ShownValueOfMetric(const std::string& metric, double value);
 std::string ShownUnitOfMetric(const std::string& metric);
 // "at most 8.5 N"; empty without limits.
-std::string LimitsOfMetric(const std::string& metric, const std::optional<double>& low,
-                           const std::optional<double>& high);
-
-// "2026-11-24 02:10" of a time of the records.
-std::string TimeWords(const std::string& utc);
+std::string LimitsOfMetric(const std::string& metric, const ValueLimits& limits);
 
 }  // namespace arthro::app

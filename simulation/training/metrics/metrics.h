@@ -17,7 +17,7 @@ namespace arthro::simulation {
 inline constexpr int kMetricsVersion = 2;
 
 struct Metric {
-  std::string_view id, unit, help;
+  std::string_view id, name, unit, help;  // `name`: for a reader
   bool is_more_better = false;
 };
 

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "simulation/scene/scene.h"
+#include "simulation/training/metrics/metric_words.h"
+#include "simulation/training/steps/step_words.h"
 
 namespace arthro::simulation {
 namespace {
@@ -22,17 +25,20 @@ const MetricValue* ValueOf(const Criterion& criterion, std::span<const MetricVal
   return found;
 }
 
-std::string ReasonOf(const AttemptResult& result) {
-  for (const StepResult& step : result.steps)
-    if (step.outcome == StepOutcome::kFailed || step.outcome == StepOutcome::kRunning)
-      return fmt::format("Step \"{}\" was not done.", step.id);
+std::string_view UnitOfMetric(const std::string& id) {
+  for (const Metric& metric : EveryMetric())
+    if (metric.id == id) return metric.unit;
+  return "";
+}
+
+std::string ReasonOf(const Exercise& exercise, const AttemptResult& result) {
+  for (std::size_t i = 0; i < result.steps.size(); ++i)
+    if (const StepOutcome outcome = result.steps[i].outcome;
+        outcome == StepOutcome::kFailed || outcome == StepOutcome::kRunning)
+      return StepWords(exercise, i) + " was not done.";
   for (const CriterionResult& criterion : result.criteria) {
     if (criterion.is_met) continue;
-    if (!criterion.value) return fmt::format("{} was not measured.", criterion.metric);
-    const bool is_low = criterion.low && *criterion.value < *criterion.low;
-    return fmt::format("{}{}{} is {:.4g}, and the {} is {:.4g}.", criterion.metric,
-                       criterion.part.empty() ? "" : " of ", criterion.part, *criterion.value,
-                       is_low ? "least" : "most", is_low ? *criterion.low : *criterion.high);
+    return CriterionWords(criterion) + ".";
   }
   return "";
 }
@@ -78,6 +84,13 @@ std::vector<CriterionResult> JudgeCriteria(std::span<const Criterion> criteria,
   return results;
 }
 
+std::string CriterionWords(const CriterionResult& criterion) {
+  const std::string unit(UnitOfMetric(criterion.metric));
+  const ValueLimits limits{criterion.low, criterion.high};
+  return fmt::format("{}: {}, asked for {}", MetricWords(criterion.metric, criterion.part),
+                     ValueWords(criterion.value, unit, limits), LimitWords(limits, unit));
+}
+
 AttemptResult ResultOf(const StepEngine& engine, std::vector<MetricValue> values,
                        std::span<const GroupValues> groups) {
   AttemptResult result;
@@ -114,7 +127,7 @@ AttemptResult ResultOf(const StepEngine& engine, std::vector<MetricValue> values
       std::all_of(result.criteria.begin(), result.criteria.end(),
                   [](const CriterionResult& criterion) { return criterion.is_met; });
   result.outcome = steps_done && criteria_met ? AttemptOutcome::kPassed : AttemptOutcome::kFailed;
-  if (result.outcome == AttemptOutcome::kFailed) result.reason = ReasonOf(result);
+  if (result.outcome == AttemptOutcome::kFailed) result.reason = ReasonOf(exercise, result);
   return result;
 }
 

@@ -27,6 +27,9 @@ std::vector<CriterionResult> JudgeCriteria(std::span<const Criterion> criteria,
                                            std::span<const MetricValue> values,
                                            std::span<const GroupValues> groups = {});
 
+// "Peak force (instrument): 9.31 N, asked for at most 8.5 N"
+std::string CriterionWords(const CriterionResult& criterion);
+
 // The result of an attempt that has ended: passed when it is not void, came to its end with every
 // required step that began done, and met every criterion.
 AttemptResult ResultOf(const StepEngine& engine, std::vector<MetricValue> values,

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "simulation/training/steps/step_words.h"
+
 namespace arthro::simulation {
 namespace {
 
@@ -90,7 +92,7 @@ void StepEngine::Conclude(std::size_t step, StepOutcome outcome, const std::stri
   };
   if (exercise_.order == StepOrder::kFree) {
     if (!is_done && !base.is_optional)
-      End(AttemptEnd::kStepFailed, fmt::format("Step \"{}\" has failed.", result.id));
+      End(AttemptEnd::kStepFailed, StepWords(exercise_, step) + " has failed.");
     else if (std::all_of(results_.begin(), results_.end(), is_over))
       End(AttemptEnd::kCompleted, "");
     return;
@@ -107,7 +109,7 @@ void StepEngine::Conclude(std::size_t step, StepOutcome outcome, const std::stri
   if (is_done || base.is_optional)
     End(AttemptEnd::kCompleted, "");
   else
-    End(AttemptEnd::kStepFailed, fmt::format("Step \"{}\" has failed.", result.id));
+    End(AttemptEnd::kStepFailed, StepWords(exercise_, step) + " has failed.");
 }
 
 void StepEngine::TakeActs(std::span<const TraineeAct> acts) {

@@ -13,6 +13,8 @@
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "simulation/core/units.h"
+#include "simulation/tissue/body/tissue_preset.h"
+#include "simulation/training/metrics/metrics.h"
 #include "simulation/training/observe/exercise_targets.h"
 #include "simulation/training/robot/pose_search.h"
 #include "tests/app/commands/settle.h"
@@ -127,7 +129,10 @@ TEST(Lessons, AnAuthoredExerciseCanBeUndoneStepByStepAndBegun) {
   Prepare(state);
   const Scene before = state.document().scene;
   state.step = Step::kExercises;
+  state.scope = {-0.3, 0.1, 0.2, 0.015};
   app::Run(state, "new-exercise");
+  EXPECT_EQ(ChosenExercise(state)->setup.scope, (StartPose{-0.3, 0.1, 0.2, 0.015}))
+      << "an attempt begins with the view of the author";
   AddTarget(state);
   ASSERT_TRUE(TakesTarget(state));
   PlaceTarget(state, {{0, 0, 0.01}, {0, 0, 1}}, std::nullopt);
@@ -144,6 +149,48 @@ TEST(Lessons, AnAuthoredExerciseCanBeUndoneStepByStepAndBegun) {
     ASSERT_LT(steps, 5) << "one step of the history for each edit";
     app::Run(state, "undo");
   }
+}
+
+TEST(Lessons, ARenamedTargetIsNamedAnewWhereverTheExerciseSpeaksOfIt) {
+  EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
+  Prepare(state);
+  state.step = Step::kExercises;
+  app::Run(state, "new-exercise");
+  AddTarget(state);
+  AddTarget(state);
+  EditExercise(state, "Steps", "", [](Exercise& exercise) {
+    const std::string first = exercise.targets[0].id;
+    SeeStep see;
+    see.targets = {first, exercise.targets[1].id};
+    TrackStep track;
+    track.path = {exercise.targets[1].id, first};
+    RecoverStep recover;
+    recover.source = first;
+    exercise.steps = {see, track, recover};
+    exercise.avoid = {{first, AvoidBy::kInstrument, 0}};
+  });
+  const Exercise before = *ChosenExercise(state);
+  RenameTarget(state, 0, before.targets[1].id);
+  EXPECT_EQ(*ChosenExercise(state), before) << "the name is another one's";
+  EXPECT_NE(state.message.find("Another target"), std::string::npos);
+  RenameTarget(state, 0, "tibial spine");
+  const Exercise& named = *ChosenExercise(state);
+  EXPECT_EQ(named.targets[0].id, "tibial spine");
+  EXPECT_EQ(BaseOf(named.steps[0]).targets[0], "tibial spine");
+  EXPECT_EQ(std::get<TrackStep>(named.steps[1]).path[1], "tibial spine");
+  EXPECT_EQ(std::get<RecoverStep>(named.steps[2]).source, "tibial spine");
+  EXPECT_EQ(named.avoid[0].target, "tibial spine");
+}
+
+TEST(Lessons, ACriterionBeginsWithToolLimitAndSource) {
+  for (const simulation::Metric& metric : simulation::EveryMetric()) {
+    const Criterion criterion = StartCriterion(std::string(metric.id));
+    EXPECT_NE(criterion.min.has_value(), criterion.max.has_value()) << metric.id;
+    EXPECT_EQ(criterion.min.has_value(), metric.is_more_better) << metric.id;
+    EXPECT_FALSE(criterion.source.empty()) << metric.id;
+  }
+  EXPECT_EQ(StartCriterion("peak_force").part, "instrument");
+  EXPECT_EQ(StartCriterion("peak_force").max, simulation::kSafeProbingForce);
 }
 
 TEST(Lessons, ATargetThatLiesOnNothingIsRefusedInWordsAndNoPracticeIsLeftBehind) {

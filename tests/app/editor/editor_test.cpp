@@ -56,6 +56,29 @@ expect not "Swing the scope"
 )");
 }
 
+// In a narrow window the bar was cut in the middle of a button, and Practise was out of reach.
+TEST_F(EditorWindow, ANarrowBarLeavesOutWhatTheFileMenuHas) {
+  Drive(R"(
+resize 1280 800
+wait frames 3
+expect "Save as…"
+expect "History…"
+resize 640 480
+wait frames 3
+expect not "Save as…"
+expect not "History…"
+expect enabled "Practise"
+click "File"
+wait frames 3
+expect "Save as…"
+key escape
+click "Practise"
+wait job
+wait frames 5
+expect "Force on the tissue"
+)");
+}
+
 TEST_F(EditorWindow, HelpOpensThePageOfWhatIsShown) {
   Drive(R"(
 click Depth

@@ -1,12 +1,14 @@
 // Records of attempts: the same behaviour on SQLite and on PostgreSQL.
 #include <cmath>
 #include <fstream>
+#include <span>
 #include <string>
 #include <sys/stat.h>
 
 #include <gtest/gtest.h>
 
 #include "app/records/attempts/outbox.h"
+#include "app/records/attempts/progress.h"
 #include "app/records/attempts/records_file.h"
 #include "app/records/attempts/standings.h"
 #include "app/records/people/audit.h"
@@ -161,6 +163,14 @@ void StandingsCountTriesAndGates(const Place& place) {
   EXPECT_EQ(own[1].test_outcomes, "");
   EXPECT_TRUE(own[1].is_gate_opened);
   EXPECT_EQ(CohortStandings(records).size(), 3u);
+  const std::string code = "T-1";
+  const auto robots = StandingsOf(records, std::span(&code, 1), Performers::kRobots);
+  ASSERT_EQ(robots.size(), 1u);
+  EXPECT_EQ(robots[0].tries, 1);
+  EXPECT_EQ(robots[0].best_time, 50);
+  EXPECT_EQ(robots[0].test_outcomes, "") << "a robot opens no gate";
+  EXPECT_EQ(ProgressOf(records, code, first.hash, "task_time", "both", Performers::kRobots).size(),
+            1u);
   const auto cohort = CohortStandings(records, "B");
   ASSERT_EQ(cohort.size(), 1u);
   EXPECT_EQ(cohort[0].trainee, "T-2");

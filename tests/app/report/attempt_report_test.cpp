@@ -27,7 +27,7 @@ TEST(AttemptReport, StatesOutcomeCriteriaAndSources) {
   EXPECT_TRUE(page.starts_with(kAttemptPageHead));
   for (const char* words :
        {"Not passed. The force on the instrument was 9.1 N; 8.5 N are allowed.",
-        "peak force (instrument)", "at most 8.5 N", "✗ not met", "✓ met", "PMC3023859",
+        "Peak force (instrument)", "at most 8.5 N", "✗ not met", "✓ met", "PMC3023859",
         "own start value (start value)", "The tip was never in the joint.", "not measured"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
 }
@@ -66,7 +66,7 @@ TEST(AttemptReport, ShowsEndsOfStepsAndFaultsInTheOrderOfTime) {
   std::vector<std::string> words;
   for (const ReportMoment& moment : moments) words.push_back(moment.words);
   EXPECT_EQ(words,
-            (std::vector<std::string>{"a: done", "zone entered: ligament", "largest force: 9.5 N",
+            (std::vector<std::string>{"a: done", "zone entered: ligament", "peak force: 9.5 N",
                                       "cut outside of the regions", "b: failed"}));
   EXPECT_FALSE(moments[0].is_fault);
   EXPECT_TRUE(moments[4].is_fault);
@@ -171,17 +171,16 @@ TEST(AttemptReport, TenMinutesFitIntoASmallPage) {
   EXPECT_LT(AttemptPage(SampleReport(600)).size(), 1u << 20);
 }
 
-TEST(AttemptWords, LengthsAndAnglesAreThoseOfAReader) {
-  EXPECT_EQ(ValueWords(0.2518, "m"), "251.8 mm");
-  EXPECT_EQ(ValueWords(3.14159265, "rad"), "180 °");
-  EXPECT_EQ(ValueWords(1e-5, "m2"), "10 mm²");
-  EXPECT_EQ(ValueWords(12345.6, "s"), "12346 s");
-  EXPECT_EQ(ValueWords(6.852e-17, "m"), "0 mm");
-  EXPECT_EQ(ValueWords({}, "m"), "not measured");
-  CriterionRow both;
-  both.low = 0.5;
-  both.high = 3;
-  EXPECT_EQ(LimitWords(both, "N"), "between 0.5 and 3 N");
+TEST(AttemptReport, NamesStepsByNumberAndTitle) {
+  AttemptReport report = SampleReport();
+  report.steps = {{"s1", {1, "Touch the spine"}}, {"s2", {2, "Press the <edge>"}}};
+  const std::string page = AttemptPage(report);
+  EXPECT_NE(page.find("1. Touch the spine: done"), std::string::npos);
+  EXPECT_NE(page.find("2. Press the &lt;edge&gt;: done"), std::string::npos);
+  EXPECT_EQ(page.find("s1"), std::string::npos) << "an id is for files";
+  const auto moments = MomentsOf(report.attempt, report.frames, report.steps);
+  ASSERT_FALSE(moments.empty());
+  EXPECT_EQ(moments[0].words, "1. Touch the spine: done");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Metrics against closed forms, from hands that are sampled at 100, 250 and 1,000 Hz.
 #include "simulation/training/metrics/metrics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -11,6 +12,7 @@
 #include "simulation/core/units.h"
 #include "simulation/training/metrics/exercise_metrics.h"
 #include "simulation/training/metrics/hand_path.h"
+#include "simulation/training/metrics/metric_words.h"
 #include "simulation/training/metrics/smoothness.h"
 #include "tests/simulation/training/simulated_attempt.h"
 #include "tests/simulation/training/step_frames.h"
@@ -225,6 +227,10 @@ TEST(Metrics, ValueThatIsMissingSaysWhy) {
          MeasureExercise(*frames, StepEngine(Exercise()), {"backdrop"})) {
       given.insert(value.metric->id);
       EXPECT_EQ(value.value.has_value(), value.why_none.empty()) << value.metric->id;
+      const auto parts = PartsOf(value.metric->id);
+      EXPECT_TRUE(std::ranges::count(parts, value.part) == 1 ||
+                  (parts.empty() && value.part.ends_with(" on backdrop")))
+          << value.metric->id << ": " << value.part;
       EXPECT_TRUE(std::isfinite(value.value.value_or(0))) << value.metric->id;
     }
   EXPECT_EQ(given.size(), EveryMetric().size());

@@ -74,7 +74,7 @@ TEST(Criteria, PassNeedsStepsAndCriteria) {
     AdvanceAll(engine, frames);
     const AttemptResult result = ResultOf(engine, MeasureExercise(frames, engine, {"backdrop"}));
     EXPECT_EQ(result.outcome, hidden == 0 ? AttemptOutcome::kPassed : AttemptOutcome::kFailed);
-    EXPECT_EQ(result.reason, hidden == 0 ? "" : "task_time of both is 1.6, and the most is 1.5.");
+    EXPECT_EQ(result.reason, hidden == 0 ? "" : "Time: 1.6 s, asked for at most 1.5 s.");
   }
 }
 

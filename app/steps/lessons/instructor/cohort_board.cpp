@@ -97,7 +97,7 @@ void ReadCurve(Records& records, const EditorState& state, CohortBoard& board) {
   const auto& [metric, part] = board.metrics[static_cast<std::size_t>(board.metric)];
   const std::string& hash = board.hashes.at(static_cast<std::size_t>(board.exercise));
   board.curve = CurveOf(ProgressOf(records, board.rows[static_cast<std::size_t>(board.row)].code,
-                                   hash, metric, part));
+                                   hash, metric, part, board.performers));
   ReadBand(records, hash, metric, part, board);
 }
 
@@ -219,7 +219,7 @@ void ReadShownRows(EditorState& state, int first, int last) {
     if (is_unread(begin[row])) codes.push_back(begin[row].code);
   std::map<std::string, std::vector<Standing>> by_code;
   Try(state, [&](Records& records) {
-    for (Standing& standing : StandingsOf(records, codes))
+    for (Standing& standing : StandingsOf(records, codes, board.performers))
       by_code[standing.trainee].push_back(std::move(standing));
   });
   for (const std::string& code : codes)
@@ -240,6 +240,11 @@ void ChooseCohort(EditorState& state, const std::string& cohort) {
 
 void FindTrainees(EditorState& state, const std::string& part_of_code) {
   BoardOf(state).search = part_of_code;
+  BoardOf(state).is_stale = true;
+}
+
+void ShowAttemptsOf(EditorState& state, Performers performers) {
+  BoardOf(state).performers = performers;
   BoardOf(state).is_stale = true;
 }
 

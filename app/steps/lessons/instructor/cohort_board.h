@@ -37,8 +37,9 @@ struct LearningCurve {
 };
 
 struct CohortBoard {
-  std::vector<std::string> cohorts;  // names
-  std::string search;                // typed; part of the codes that are shown
+  std::vector<std::string> cohorts;             // names
+  std::string search;                           // typed; part of the codes that are shown
+  Performers performers = Performers::kPeople;  // whose attempts the page shows
   std::vector<CohortRowOfPage> rows;
   int row = -1, exercise = -1;  // chosen
   // Metrics of the chosen exercise that may be drawn, with their part: the time, then its criteria.
@@ -71,6 +72,7 @@ CohortBoard& FreshCohortBoard(EditorState& state);
 void ReadShownRows(EditorState& state, int first, int last);
 void ChooseCohort(EditorState& state, const std::string& cohort);  // empty: every one
 void FindTrainees(EditorState& state, const std::string& part_of_code);
+void ShowAttemptsOf(EditorState& state, Performers performers);
 void ChooseCell(EditorState& state, int row, int exercise);
 void ChooseMetric(EditorState& state, int metric);
 // Draws the band of this group from now on; an empty name: of none.

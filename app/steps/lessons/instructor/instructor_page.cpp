@@ -37,6 +37,14 @@ void Head(Ui& ui, EditorState& state, const CohortBoard& board) {
   if (TextField(ui, "Find", search, "part of a code")) FindTrainees(state, search);
   ImGui::EndChild();
   ImGui::SameLine(0, ui.Px(12));
+  ImGui::BeginChild("robots", {ui.Px(130), ui.Px(54)});
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ui.Px(22));
+  bool has_robots = board.performers == Performers::kRobots;
+  if (Checkbox(ui, "Robots", has_robots,
+               "Show the attempts that `arthroscene robot` kept, instead of those of people."))
+    ShowAttemptsOf(state, has_robots ? Performers::kRobots : Performers::kPeople);
+  ImGui::EndChild();
+  ImGui::SameLine(0, ui.Px(12));
   ImGui::BeginChild("count", {ui.Px(160), ui.Px(54)});
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ui.Px(26));
   QuietText(ui,

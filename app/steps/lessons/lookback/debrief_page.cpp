@@ -14,6 +14,8 @@
 #include "app/steps/lessons/value_words.h"
 #include "simulation/core/units.h"
 #include "simulation/device/device_sample.h"
+#include "simulation/training/steps/exercise_index.h"
+#include "simulation/training/steps/step_words.h"
 
 namespace arthro::app {
 namespace {
@@ -186,12 +188,25 @@ std::array<Area, 3> PlotAreas(const Area& area, float gap) {
   return {at(0, 1), at(1, 1), at(2, 2)};
 }
 
+bool IsOfStep(EventKind kind) {
+  return kind == EventKind::kStepStart || kind == EventKind::kStepDone ||
+         kind == EventKind::kStepFailed;
+}
+
+// "2. Touch the spine"
+std::string StepLine(const Exercise& exercise, const std::string& id) {
+  const int index = simulation::StepIndex(exercise, id);
+  if (index < 0) return id;
+  return fmt::format("{}. {}", index + 1,
+                     simulation::StepTitle(exercise.steps[static_cast<std::size_t>(index)]));
+}
+
 void Events(Ui& ui, LessonsStep& step, const FinishedAttempt& attempt) {
   int number = 0;
   for (const AttemptEvent& event : attempt.result.events) {
     std::string words = fmt::format("{:.1f} s  {}", event.t, EventWords(event.kind));
     if (!event.target.empty()) words += " " + event.target;
-    if (!event.step.empty() && event.target.empty()) words += " (" + event.step + ")";
+    if (IsOfStep(event.kind)) words += ": " + StepLine(attempt.exercise, event.step);
     const bool is_now = std::abs(step.debrief.at - event.t) < 0.5;
     if (ListEntry(ui, words + "##" + std::to_string(number++), is_now)) step.debrief.at = event.t;
   }
@@ -242,13 +257,11 @@ void DebriefSide(Ui& ui, EditorState& state, const Area& area) {
 }
 
 void DebriefPlots(Ui& ui, EditorState& state, const Area& area) {
-  const FixedWindow window(ui, "debrief plots", area, kPageWindow);
+  // Plots fill the window up to its edges: it has no padding, and so nothing to scroll.
+  const FixedWindow window(ui, "debrief plots", area, kPictureWindow);
   LessonsStep& step = *state.steps.lessons;
   const FinishedAttempt& attempt = *step.finished;
-  // The window would scroll if a plot reached into its padding.
-  Area room = area;
-  room.height -= ImGui::GetStyle().WindowPadding.y;
-  const std::array<Area, 3> areas = PlotAreas(room, ui.Px(8));
+  const std::array<Area, 3> areas = PlotAreas(area, ui.Px(8));
   for (const auto& picked : {DrawPlot(ui, ForcePlot(attempt, step.debrief), areas[0]),
                              DrawPlot(ui, CentrePlot(attempt, step.debrief), areas[1])})
     if (picked) step.debrief.at = *picked, step.debrief.plays = false;

@@ -44,21 +44,15 @@ void AddExpert(const EditorState& state, const FinishedAttempt& attempt, Attempt
 
 // Draws in the thread of a job, in a context of its own, and writes the page after that.
 void WriteReport(EditorState& state, const std::filesystem::path& file, AttemptReport report) {
-  const auto moments = state.steps.lessons->finished->is_of_scene
-                           ? MomentsOf(report.attempt, report.frames)
-                           : std::vector<ReportMoment>();
+  const bool is_of_scene = state.steps.lessons->finished->is_of_scene;
   state.jobs.Start(
       "Report",
-      [file, report = std::move(report), moments, document = state.document(),
+      [file, report = std::move(report), is_of_scene, document = state.document(),
        looks = simulation::LooksOf(state.document().scene.tissues, state.tissue_presets)](
           const Progress&) -> Jobs::Apply {
         AttemptReport whole = report;
-        std::string notice;
-        try {
-          whole.pictures = DrawMoments(document, looks, whole.frames, whole.track, moments);
-        } catch (const Error& fault) {
-          notice = fault.what();
-        }
+        const std::string notice =
+            is_of_scene ? SetPictures(whole, document, looks) : std::string();
         return [file, notice, page = AttemptPage(whole)](EditorState& now) {
           WriteAtomically(file, page, Access::kPrivate);
           now.message = notice.empty() ? fmt::format("The report is in {}.", file.string())

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/records/attempts/records_file.h"
+#include "app/report/make_report.h"
 #include "app/steps/lessons/instructor/rating_board.h"
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/lessons_step.h"
@@ -68,7 +69,10 @@ void ShowStoredAttempt(EditorState& state, const std::string& id) {
   shown.exercise = ExerciseFromJson(bundle.exercises.at(0).json);
   shown.trainee = bundle.trainees.at(0).code;
   shown.is_test = record.mode == AttemptMode::kTest;
-  shown.result = ResultOf(record);
+  shown.is_robot = record.mode == AttemptMode::kRobot;
+  AttemptRecord sorted = record;
+  SortMetrics(sorted.metrics);
+  shown.result = ResultOf(sorted);
   TakeRecording(state, records, record, shown);
   shown.id = id;
   shown.log = records.folder() / record.log;

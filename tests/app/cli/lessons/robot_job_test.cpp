@@ -1,5 +1,7 @@
 // arthroscene robot: attempts at exercises of the demo scene, as a researcher makes them by a
 // script.
+#include <filesystem>
+
 #include <gtest/gtest.h>
 
 #include "simulation/core/atomic_file.h"
@@ -39,7 +41,7 @@ TEST(RobotJob, ANoviceMissesTheCriterionOfItsFault) {
   const auto novice =
       test::RunProgram("robot " + kDemo + " --exercise telescope --fault too-slow --require-pass");
   EXPECT_EQ(novice.exit_code, 1);
-  EXPECT_NE(novice.out.find("not met  task_time"), std::string::npos) << novice.out;
+  EXPECT_NE(novice.out.find("not met  Time: "), std::string::npos) << novice.out;
   EXPECT_NE(novice.err.find("--require-pass"), std::string::npos) << novice.err;
 }
 
@@ -50,6 +52,34 @@ TEST(RobotJob, SaysThatNoCriterionShowsTheFault) {
   EXPECT_NE(run.err.find("no criterion of centre-and-hold shows the fault drops"),
             std::string::npos)
       << run.err;
+}
+
+TEST(RobotJob, KeepsItsAttemptWhoseReportHasPictures) {
+  const test::TempFolder folder;
+  const std::string place = " --records " + (folder / "records.sqlite").string();
+  const std::string robot = "robot " + kDemo + " --exercise telescope --trainee R-1" + place;
+  const auto unknown = test::RunProgram(robot);
+  EXPECT_EQ(unknown.exit_code, 1) << "no trainee has the code yet";
+  ASSERT_EQ(test::RunProgram("records trainee add R-1" + place).exit_code, 0);
+  const auto kept = test::RunProgram(robot);
+  ASSERT_EQ(kept.exit_code, 0) << kept.err;
+  const std::string words = "Kept for R-1 as attempt ";
+  const auto at = kept.out.find(words);
+  ASSERT_NE(at, std::string::npos) << kept.out;
+  const std::string id = kept.out.substr(at + words.size(), 36);
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    EXPECT_EQ(entry.path().string().find("robot-"), std::string::npos) << "left behind: " << entry;
+  const auto page = [&](const std::string& name, const std::string& flags) {
+    const auto file = folder / name;
+    const auto shown = test::RunProgram("records show " + id + place + " --report " +
+                                        file.string() + " " + flags);
+    EXPECT_EQ(shown.exit_code, 0) << shown.err;
+    return ReadWholeFile(file);
+  };
+  const std::string with = page("with.html", "--scene " + kDemo);
+  EXPECT_NE(with.find("src=\"data:image/jpeg"), std::string::npos);
+  EXPECT_EQ(page("found.html", ""), with) << "the demo scene is found";
+  EXPECT_EQ(page("without.html", "--no-pictures").find("src="), std::string::npos);
 }
 
 TEST(RobotJob, RefusesWhatIsNotThere) {
