@@ -141,10 +141,11 @@ void Steps(Ui& ui, EditorState& state) {
     AddStep(state, kind);
   const auto steps = ChosenExercise(state)->steps;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const std::string words = WordsOfField(KindOf(steps[i])), &text = BaseOf(steps[i]).text;
-    if (ListEntry(
-            ui, fmt::format("{}. {}##step{}", i + 1, text.empty() ? words : words + ": " + text, i),
-            static_cast<int>(i) == step.step))
+    std::string words = WordsOfField(KindOf(steps[i]));
+    if (const std::string& text = BaseOf(steps[i]).text; !text.empty())
+      words = fmt::format("{}: {}", words, text);
+    if (ListEntry(ui, fmt::format("{}. {}##step{}", i + 1, words, i),
+                  static_cast<int>(i) == step.step))
       step.step = static_cast<int>(i);
   }
   if (step.step < 0 || step.step >= static_cast<int>(ChosenExercise(state)->steps.size())) return;
