@@ -2,12 +2,15 @@
 #   snakemake -s packaging/batch/sweep.smk --cores 2 --config seeds=20 out=SWEEP
 # Each benchmark draws its easy, medium and hard clip and runs every estimator on them. Times are processor times, so
 # that runs beside one another may be compared; on a cluster, use nodes of one kind.
+import sys
 from pathlib import Path
 
 configfile: str(Path(workflow.basedir) / "sweep.yaml")
 
 OUT = Path(config["out"])
 PROGRAM = config["program"]
+if not str(config["seeds"]).isdecimal() or int(config["seeds"]) == 0:
+    sys.exit(f'{config["seeds"]}: give the number of seeds, such as seeds=20')
 SEEDS = range(1, int(config["seeds"]) + 1)
 JOBS = config["jobs"].split()
 

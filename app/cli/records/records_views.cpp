@@ -88,8 +88,11 @@ void List(const ListJob& job) {
   if (standings.empty() && !job.trainee.empty() && !AttemptsOf(records, job.trainee).empty())
     return ListAttempts(records, job.trainee);
   if (standings.empty()) {
-    fmt::print("No attempt is recorded{}.\n",
-               job.trainee.empty() ? "" : " of trainee " + job.trainee);
+    if (job.trainee.empty())
+      fmt::print(
+          "No attempt of a person is recorded; --trainee CODE also lists those of robots.\n");
+    else
+      fmt::print("No attempt of trainee {} is recorded.\n", job.trainee);
     return;
   }
   fmt::print("{:12}  {:24}  {:>5}  {:>6}  {:>7}  {:8}  {:6}\n", "trainee", "exercise", "tries",

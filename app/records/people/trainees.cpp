@@ -90,7 +90,7 @@ TraineeRow FindTrainee(Records& records, const std::string& code) {
   if (found.empty())
     throw Error(Code::kBadArgument,
                 fmt::format("no trainee has the code {}; `arthroscene records trainee list` lists "
-                            "all codes",
+                            "all codes, and `add CODE` adds one",
                             code));
   return found[0];
 }
