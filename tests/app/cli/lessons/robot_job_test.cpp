@@ -71,8 +71,8 @@ TEST(RobotJob, KeepsItsAttemptWhoseReportHasPictures) {
     EXPECT_EQ(entry.path().string().find("robot-"), std::string::npos) << "left behind: " << entry;
   const auto page = [&](const std::string& name, const std::string& flags) {
     const auto file = folder / name;
-    const auto shown = test::RunProgram("records show " + id + place + " --report " +
-                                        file.string() + " " + flags);
+    const auto shown =
+        test::RunProgram("records show " + id + place + " --report " + file.string() + " " + flags);
     EXPECT_EQ(shown.exit_code, 0) << shown.err;
     return ReadWholeFile(file);
   };
