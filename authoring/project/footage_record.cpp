@@ -23,6 +23,7 @@ namespace arthro::authoring {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "arthroscene.footage/1";
 constexpr const char* kReport = "report";
@@ -57,6 +58,14 @@ void ReplaceAll(std::string& text, const std::string& from, const std::string& t
     text.replace(at, from.size(), to);
 }
 
+// The list as a report has it. Whatever is of another kind is removed: it might hold a name.
+Json& CleanList(Json& list, Json::value_t kind) {
+  if (!list.is_array()) list = Json::array();
+  for (Json& entry : list)
+    if (entry.type() != kind) entry = Json(kind);
+  return list;
+}
+
 }  // namespace
 
 FootageRecord FootageFromJson(const std::string& text, const fs::path& file) {
@@ -64,7 +73,7 @@ FootageRecord FootageFromJson(const std::string& text, const fs::path& file) {
     if (record.clips.empty()) return reader.Fault("clips", "must list the clips of the panorama");
     reader.Know(kReport);
     if (!reader.Has(kReport)) return;
-    const nlohmann::ordered_json report = ParseOrderedJson(text, Code::kBadData)[kReport];
+    const Json report = ParseOrderedJson(text, Code::kBadData)[kReport];
     if (!report.is_object()) return reader.Fault(kReport, "must be the report of a panorama");
     record.report = report.dump(1) + "\n";
   };
@@ -76,7 +85,7 @@ FootageRecord ReadFootage(const fs::path& file) {
 }
 
 std::string JsonFromFootage(const FootageRecord& record) {
-  nlohmann::ordered_json json;
+  Json json;
   json["schema"] = kSchema;
   FootageRecord copy = record;
   copy.Visit(FieldWriter(json));
@@ -101,27 +110,28 @@ FootageRecord BesideScene(FootageRecord record, const fs::path& folder) {
 }
 
 FootageRecord WithoutNames(FootageRecord record) {
-  nlohmann::ordered_json report;
+  Json report;
   if (!record.report.empty()) report = ParseOrderedJson(record.report, Code::kBadData);
-  if (!report.is_object()) report = nlohmann::ordered_json::object();
+  if (!report.is_object()) report = Json::object();
   for (std::size_t i = 0; i < record.clips.size(); ++i) {
     ClipFile& clip = record.clips[i];
     const std::string name = fmt::format("clip {}", i + 1);
     // Sentences may name the clip.
     if (report.contains("warnings"))
-      for (auto& warning : report["warnings"]) {
-        std::string words = warning.get<std::string>();
-        for (const std::string& old : {clip.file, clip.name}) ReplaceAll(words, old, name);
-        warning = words;
-      }
-    if (report.contains("clips") && i < report["clips"].size()) report["clips"][i]["file"] = name;
+      for (Json& warning : CleanList(report["warnings"], Json::value_t::string))
+        for (const std::string& old : {clip.file, clip.name})
+          ReplaceAll(warning.get_ref<std::string&>(), old, name);
+    if (report.contains("clips")) {
+      Json& clips = CleanList(report["clips"], Json::value_t::object);
+      if (i < clips.size()) clips[i]["file"] = name;
+    }
     clip.name = name;
     clip.file.clear();
     clip.beside.clear();
   }
   if (report.contains("footage")) report["footage"] = "";
   if (report.contains("frames"))
-    for (auto& frame : report["frames"]) frame["source"] = "";
+    for (Json& frame : CleanList(report["frames"], Json::value_t::object)) frame["source"] = "";
   if (!record.report.empty()) record.report = report.dump(1) + "\n";
   return record;
 }

@@ -157,14 +157,15 @@ Soak Run(const Plan& plan, SoakHand& scope, SoakHand& instrument, Session& sessi
       }
       soak.step_ms.push_back(step_ms);
       soak.cuts += std::max(0L, cuts - std::exchange(cuts_before, cuts));
-      const auto energy = RestEnergy(picture);
-      if (!is_rest || in_rest < kSettles || !energy) {
-        rest_energy = -1;
-      } else {
-        if (rest_energy >= 0) soak.energy_gain = std::max(soak.energy_gain, *energy - rest_energy);
-        soak.rests += rest_energy < 0;
-        rest_energy = rest_energy < 0 ? *energy : std::min(rest_energy, *energy);
-      }
+    }
+    // Tissue at rest takes no steps; its energy is looked at all the same.
+    const auto energy = RestEnergy(picture);
+    if (!is_rest || in_rest < kSettles || !energy) {
+      rest_energy = -1;
+    } else {
+      if (rest_energy >= 0) soak.energy_gain = std::max(soak.energy_gain, *energy - rest_energy);
+      soak.rests += rest_energy < 0;
+      rest_energy = rest_energy < 0 ? *energy : std::min(rest_energy, *energy);
     }
     if (is_rest && cuts_before >= kCutsToReset) {
       servo.Stop();

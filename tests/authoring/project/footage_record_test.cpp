@@ -116,6 +116,23 @@ TEST(FootageRecord, ACopyThatIsHandedOnNamesNoClip) {
   }
 }
 
+// A report that another program wrote, or that was edited by hand, threw at the hand-over.
+TEST(FootageRecord, ANameWhereAReportHasNoneIsNotHandedOnEither) {
+  const std::string name = std::string(kPatient) + ".mp4";
+  FootageRecord record;
+  record.clips.emplace_back().name = name;
+  for (const auto& report : {
+           nlohmann::ordered_json{{"warnings", {7, {{"of", name}}}}, {"clips", {name}}},
+           nlohmann::ordered_json{{"warnings", name}, {"clips", name}, {"frames", name}},
+           nlohmann::ordered_json{{"frames", {name, {{"source", name}}}}},
+       }) {
+    record.report = report.dump();
+    const std::string text = JsonFromFootage(WithoutNames(record));
+    EXPECT_EQ(text.find(kPatient), std::string::npos) << text;
+    EXPECT_NO_THROW(FootageFromJson(text));
+  }
+}
+
 TEST(FootageRecord, ABrokenRecordIsOneSentence) {
   const test::TempFolder folder;
   SaveDocument(NewDocument(folder), folder / "scene");

@@ -2,53 +2,17 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
-#include <fcntl.h>
-#include <fstream>
 #include <functional>
-#include <optional>
-#include <stdexcept>
 #include <thread>
-#include <unistd.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "simulation/device/live/release_on_crash.h"
-#include "tests/simulation/device/live/arm_bench.h"
+#include "tests/simulation/device/live/plugged_arm.h"
 #include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
-
-using test::ArmBench;
-using test::Board;
-using test::Bytes;
-using test::CurrentsAt;
-using test::WaitUntil;
-
-const std::string kPath = "/dev/fake0", kOther = "/dev/fake1";
-const glm::dvec3 kNone(0.0), kPush(0, 0, 3);
-constexpr std::array<int, 3> kNoCurrents{};
-
-struct Plugged : ArmBench {
-  Plugged() : board(usb, kPath) { usb.Plug(test::WoodenArm(L"A", kPath)); }
-  ~Plugged() {
-    // The threads of the link call the board.
-    device.reset();
-    link.reset();
-    EXPECT_EQ(usb.misuses(), 0);
-    EXPECT_EQ(usb.opened(kPath), 0);
-  }
-  Board board;
-};
-
-bool AreZeros(const std::vector<Bytes>& reports) {
-  for (const Bytes& report : reports)
-    if (report != Bytes(15)) return false;
-  return true;
-}
 
 TEST(LiveArm, IsHomedArmedAndPushes) {
   Plugged bench;
@@ -402,113 +366,6 @@ TEST(LiveArm, AFailedReadIsALossAndTheDeviceIsOpenedAgain) {
   bench.usb.SetReadResult(kPath, 1);
   bench.Arm();
   EXPECT_EQ(bench.device->state(), DeviceState::kArmed);
-}
-
-TEST(LiveArm, WritesZeroWhileTheServoIsSilent) {
-  Plugged bench;
-  bench.Arm();
-  for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
-  ASSERT_EQ(bench.device->force(), kPush);
-  // The servo has stopped.
-  EXPECT_TRUE(WaitUntil([&] { return CurrentsAt(bench.usb, kPath) == kNoCurrents; }));
-}
-
-// The program is stopped (by a debugger or a sleeping machine) between the command of the servo and
-// its writing.
-TEST(LiveArm, WritesZeroInPlaceOfAnOutdatedForce) {
-  Plugged bench;
-  bench.Arm();
-  for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
-  bench.usb.SetWriteTime(kPath, 50);
-  bench.TickNow(kPush, true);
-  ASSERT_TRUE(WaitUntil([&] { return bench.link->write_began() > 0; }));
-  bench.usb.SetWriteTime(kPath, 0);
-  bench.TickNow(kPush, true);
-  ASSERT_EQ(bench.device->force(), kPush) << "or there is nothing to hold back";
-  const std::size_t written = bench.usb.Written(kPath).size();
-  test::AdvanceBench(0.02);
-  ASSERT_TRUE(WaitUntil([&] { return bench.usb.Written(kPath).size() > written + 1; }));
-  const auto reports = bench.usb.Written(kPath);
-  EXPECT_TRUE(AreZeros({reports.begin() + static_cast<std::ptrdiff_t>(written) + 1, reports.end()}))
-      << "after the one that was being written";
-}
-
-TEST(LiveArm, WritesZeroFiveTimesOnEveryWayOut) {
-  for (const bool throws : {false, true}) {
-    std::vector<Bytes> written;
-    test::TempFolder folder;
-    try {
-      Plugged bench;
-      bench.Arm();
-      for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
-      ASSERT_NE(CurrentsAt(bench.usb, kPath), kNoCurrents);
-      const std::size_t before = bench.usb.Written(kPath).size();
-      struct Look {  // destroyed after the link and before the bus
-        test::FakeUsb& usb;
-        std::vector<Bytes>& written;
-        std::size_t before;
-        std::shared_ptr<LiveLink> link;
-        std::unique_ptr<LiveDevice> device;
-        ~Look() {
-          device.reset();
-          link.reset();
-          const auto all = usb.Written(kPath);
-          written.assign(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
-        }
-      } look{bench.usb, written, before, std::move(bench.link), std::move(bench.device)};
-      if (throws) throw std::runtime_error("anything");
-    } catch (const std::runtime_error&) {
-    }
-    ASSERT_GE(written.size(), 5u);
-    EXPECT_TRUE(AreZeros({written.end() - 5, written.end()}));
-  }
-}
-
-TEST(LiveArm, GivesNoForceAfterRelease) {
-  Plugged bench;
-  bench.Arm();
-  for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
-  bench.link->Release();
-  EXPECT_TRUE(WaitUntil([&] { return CurrentsAt(bench.usb, kPath) == kNoCurrents; }));
-  for (int i = 0; i < 50; ++i) {
-    bench.Tick(kPush, true);
-    ASSERT_EQ(CurrentsAt(bench.usb, kPath), kNoCurrents);
-  }
-}
-
-// Crashes while it pushes; the currents written to its board go to `file`, one report per line.
-void Crash(const std::filesystem::path& file, int signal) {
-  Plugged bench;
-  bench.Arm();
-  for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
-  const ReleaseOnCrash crash({bench.link});
-  const int out = ::open(file.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
-  bench.usb.OnWrite(kPath, [&](const Bytes& report) {
-    const char line[2] = {report == Bytes(15) ? '0' : '1', '\n'};
-    if (::write(out, line, 2) != 2) std::_Exit(3);
-    bench.board.SendNow();
-  });
-  bench.Tick(kPush, true);
-  std::atomic<bool> is_over{false};
-  std::thread servo([&] {
-    while (!is_over) bench.Tick(kPush, true);
-  });
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  signal == 0 ? std::exit(4) : std::abort();
-}
-
-TEST(LiveArmDeathTest, ACrashOrExitWritesZeroFirst) {
-  test::TempFolder folder;
-  const auto last = [&](const std::string& name) {
-    std::ifstream lines(folder / name);
-    std::string all((std::istreambuf_iterator<char>(lines)), {});
-    EXPECT_NE(all.find('1'), std::string::npos) << "it was pushed";
-    return all.size() < 4 ? std::string() : all.substr(all.size() - 2);
-  };
-  EXPECT_EXIT(Crash(folder / "abort", SIGABRT), testing::KilledBySignal(SIGABRT), "");
-  EXPECT_EQ(last("abort"), "0\n");
-  EXPECT_EXIT(Crash(folder / "exit", 0), testing::ExitedWithCode(4), "");
-  EXPECT_EQ(last("exit"), "0\n");
 }
 
 TEST(LiveArm, AnUnknownGeometryIsAFaultAndNotOpened) {
