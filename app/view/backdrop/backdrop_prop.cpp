@@ -253,14 +253,14 @@ std::pair<glm::dvec2, glm::dvec2> BackdropProp::ProjectionInTexture() const {
 
 ReliefContact BackdropProp::BeginContact() {
   ReliefContact contact;
-  if (!relief_->GetHandle() || picture_.relief.steps == 0 || picture_.plain) return contact;
-  relief_->Activate();
-  contact.texture_unit = relief_->GetTextureUnit();
   const simulation::ScopeView view = InPictureFrame(picture_.view, backdrop_.projection);
   contact.tip = view.tip;
   contact.right = view.right;
   contact.up = glm::cross(view.right, view.view);
   contact.ahead = view.view;
+  if (!relief_->GetHandle() || picture_.relief.steps == 0 || picture_.plain) return contact;
+  relief_->Activate();
+  contact.texture_unit = relief_->GetTextureUnit();
   contact.radius = backdrop_.radius;
   std::tie(contact.centre, contact.scale) = ProjectionInTexture();
   contact.is_equirectangular = backdrop_.projection.type == ProjectionType::kEquirectangular;

@@ -101,6 +101,10 @@ bool LensModel::IsFine() const {
   return longest_edge_ > 0 && pose_.scale * longest_edge_ <= kFineEdge;
 }
 
+bool LensModel::IsPlate() const {
+  return look_ == Look::kTissue && tissue_look_.structure == simulation::TissueStructure::kHyaline;
+}
+
 void LensModel::Assemble() {
   std::vector<std::string> defines;
   std::vector<std::string> structure;
@@ -108,8 +112,7 @@ void LensModel::Assemble() {
     defines.push_back("TISSUE");
     if (tissue_look_.structure == simulation::TissueStructure::kFibres)
       structure.push_back("FIBRES");
-    if (tissue_look_.structure == simulation::TissueStructure::kHyaline)
-      structure.push_back("HYALINE");
+    if (IsPlate()) structure.push_back("HYALINE");
     if (IsFine()) structure.push_back("FINE");
   }
   if (has_lens_) defines.push_back("LENS");
@@ -270,7 +273,8 @@ MeteredSurface LensModel::Metered(const glm::dvec3& light_colour) const {
           triangles_,
           is_closed_,
           pose_,
-          Luma(colour_ * light_colour)};
+          Luma(colour_ * light_colour),
+          IsPlate()};
 }
 
 void LensModel::SetFrame(const LensFrame& frame) {

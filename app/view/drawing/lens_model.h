@@ -85,6 +85,7 @@ class LensModel {
   void Assemble();
   // Whether the distance between vertices follows from theirs.
   bool IsFine() const;
+  bool IsPlate() const;
   void TakeGrain(const SurfaceMesh& surface, std::span<const std::uint8_t> fresh);
   void SetInFragments(const char* name, const glm::dvec3& value);
   void Set(const char* given_name, double value);

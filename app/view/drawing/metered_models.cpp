@@ -17,7 +17,8 @@ constexpr float kNearestMetered = kNearest;  // m
 constexpr float kBehind = -0.5f;
 
 // Returns a tissue's diffuse light by its cosine to the lens, as in model_fragment.glsl.
-float FacingLight(float facing) {
+float FacingLight(float facing, bool is_plate) {
+  if (is_plate) return kRelitAmbient + (1 - kRelitAmbient) * facing;
   constexpr float kEdge = kWhiteFacing, kOver = kWrap, kLeast = kAmbient;
   constexpr float kScattered = 0.745f;  // luma of the shader's kScattered
   const float t = std::min(facing / kEdge, 1.0f);
@@ -95,17 +96,16 @@ void MeteredModels::Draw(const MeteredSurface& surface) {
   }
   for (const auto& t : surface.triangles)
     DrawTriangle(corners_[static_cast<std::size_t>(t[0])], corners_[static_cast<std::size_t>(t[1])],
-                 corners_[static_cast<std::size_t>(t[2])], surface.is_closed,
-                 static_cast<float>(surface.luma));
+                 corners_[static_cast<std::size_t>(t[2])], surface);
 }
 
-void MeteredModels::DrawTriangle(const Corner& a, const Corner& b, const Corner& c, bool is_closed,
-                                 float luma) {
+void MeteredModels::DrawTriangle(const Corner& a, const Corner& b, const Corner& c,
+                                 const MeteredSurface& surface) {
   if (!(a.per_distance > 0 && b.per_distance > 0 && c.per_distance > 0)) return;
   // Counter-clockwise in the window (y up) when seen from outside.
   const glm::vec2 ab = b.place - a.place, ac = c.place - a.place;
   const float twice = Cross(ab, ac);
-  if (!(is_closed ? twice > 0 : twice != 0)) return;
+  if (!(surface.is_closed ? twice > 0 : twice != 0)) return;
   const glm::vec2 low = glm::min(glm::min(a.place, b.place), c.place);
   const glm::vec2 high = glm::max(glm::max(a.place, b.place), c.place);
   if (!(low.x < 1 && low.y < 1 && high.x > -1 && high.y > -1)) return;
@@ -126,7 +126,8 @@ void MeteredModels::DrawTriangle(const Corner& a, const Corner& b, const Corner&
       if (light < 0) {
         const glm::vec3 normal = glm::cross(b.point - a.point, c.point - a.point);
         const float size = glm::length(normal) * glm::length(a.point);
-        light = luma * FacingLight(size > 0 ? std::abs(glm::dot(normal, a.point)) / size : 0.0f);
+        const float facing = size > 0 ? std::abs(glm::dot(normal, a.point)) / size : 0.0f;
+        light = static_cast<float>(surface.luma) * FacingLight(facing, surface.is_plate);
       }
       place = {distance, light};
       has_any_ = true;

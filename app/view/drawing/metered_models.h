@@ -21,7 +21,8 @@ struct MeteredSurface {
   std::span<const std::array<int, 3>> triangles;  // counter-clockwise from outside
   bool is_closed = false;                         // its inside is never seen
   Pose portal_from_surface;
-  double luma = 0.5;  // luma of its colour in the lamp's light, linear
+  double luma = 0.5;      // luma of its colour in the lamp's light, linear
+  bool is_plate = false;  // lit like the backdrop that it lies on
 };
 
 class MeteredModels {
@@ -54,7 +55,8 @@ class MeteredModels {
     glm::vec2 place{0.0f};   // place in the window
     float per_distance = 0;  // 1/m; 0: behind the lens or not finite
   };
-  void DrawTriangle(const Corner& a, const Corner& b, const Corner& c, bool is_closed, float luma);
+  void DrawTriangle(const Corner& a, const Corner& b, const Corner& c,
+                    const MeteredSurface& surface);
 
   simulation::ScopeView view_;
   simulation::ScopeOptics optics_;

@@ -37,7 +37,6 @@ const float kWallShade = 0.35;               // loss of light on a side
 const float kWallFacing = 0.8;               // cosine to the lamp that a side counts as
 // Fluid film under the lamp.
 const float kSheen = 0.02;
-const float kRelitAmbient = 0.2;  // diffuse light of what faces away
 // Orientation mark at the rim: a triangle that points outwards.
 const float kMarkTip = 0.925;     // window radii
 const float kMarkSlope = 0.5;     // half its width over its length

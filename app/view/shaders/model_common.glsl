@@ -9,6 +9,9 @@ VARYING vec3 lensPoint;  // m, in the lens frame
 VARYING vec3 grain;  // m, coordinates of the pattern at rest (tissue_grain.h)
 VARYING vec3 marks;  // rim, root, and 1 on the face of a cut
 VARYING float coarseNoise;
+#ifdef HYALINE
+VARYING vec3 toPortal;  // m, in the lens frame: to the portal, where the footage had its lamp
+#endif
 #else
 VARYING vec3 modelPoint;  // m, in the model's frame
 #endif

@@ -41,9 +41,16 @@
   normal = tilted(normal, pattern.height);
   facing = max(dot(normal, toLight), 0.0);
   shine = max(dot(normal, halfway), 0.0);
-  float wrapped = (facing + kWrap) / (1.0 + kWrap);
+#ifdef HYALINE
+  // A plate is lit like the backdrop that it lies on: in part by the footage's lamp at the portal.
+  float baked = diffuse(max(dot(normal, normalize(toPortal)), 0.0));
+  float lit = mix(min(lightAt(lensDistance), 1.0) * baked,
+                  lampAt(lensDistance) * (kRelitAmbient + (1.0 - kRelitAmbient) * facing), relit);
+#else
   vec3 scattered = mix(kScattered, vec3(1.0), smoothstep(0.0, kWhiteFacing, facing));
-  vec3 body = own * scattered * (kAmbient + (1.0 - kAmbient) * wrapped) * lightColour * light;
+  vec3 lit = scattered * diffuse(facing) * light;
+#endif
+  vec3 body = own * lightColour * lit;
   float shine2 = shine * shine, shine4 = shine2 * shine2, shine8 = shine4 * shine4;
   float shine64 = shine8 * shine8;
   shine64 *= shine64 * shine64 * shine64;

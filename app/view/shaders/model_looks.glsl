@@ -5,6 +5,10 @@ const float kMostOffPlace = 0.12;  // window radii
 const float kSoftBorder = 0.75;  // share of the plate's own normal at its border
 const float kSoftColour = 0.2, kLeastSurround = 0.02;
 const vec3 kScattered = vec3(0.95, 0.70, 0.58);    // light through tissue that faces away, warmer
+// Returns the diffuse light of a tissue by its cosine to the lamp.
+float diffuse(float facing) {
+  return kAmbient + (1.0 - kAmbient) * (facing + kWrap) / (1.0 + kWrap);
+}
 // Film of fluid: a broad sheen, a small glint, and the surroundings at grazing angles.
 const float kWetSheen = 0.05, kWetGlint = 0.5;
 const float kMirrored = 0.03, kGrazing = 0.2;

@@ -10,6 +10,10 @@
   modelPoint = vertexMC.xyz;
 #endif
   contactPoint = inPortal(lensPoint);
+#ifdef HYALINE
+  toPortal = vec3(dot(contactPoint, -given_contactRight), dot(contactPoint, -given_contactUp),
+                  dot(contactPoint, given_contactAhead));
+#endif
   float lensDistance = max(length(lensPoint), 1e-7);
   vec2 lensPlace = placeInWindow(lensPoint, lensDistance);
   float lensClip =

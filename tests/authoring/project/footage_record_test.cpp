@@ -121,6 +121,7 @@ TEST(FootageRecord, ANameWhereAReportHasNoneIsNotHandedOnEither) {
   const std::string name = std::string(kPatient) + ".mp4";
   FootageRecord record;
   record.clips.emplace_back().name = name;
+  record.clips[0].fingerprint = "1";
   for (const auto& report : {
            nlohmann::ordered_json{{"warnings", {7, {{"of", name}}}}, {"clips", {name}}},
            nlohmann::ordered_json{{"warnings", name}, {"clips", name}, {"frames", name}},
