@@ -67,7 +67,7 @@ class PlateLight : public ViewTest {
     const ColourImage bare = view_->ReadPixels();
     const std::vector<float> ground = view_->ReadDistances();
     Tissue plate;
-    plate.colour = glm::dvec3(0.4);  // as bright as the backdrop: the automatic gain stays
+    plate.colour = glm::dvec3(0.4);  // brightness of the backdrop: the automatic gain stays
     simulation::TissueLook look;
     look.structure = simulation::TissueStructure::kHyaline;
     look.gloss = 0;
