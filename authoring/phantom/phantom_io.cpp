@@ -99,9 +99,9 @@ glm::dvec3 ModelColour(const PhantomPicture& picture, Surface surface) {
     sum += rgb * rgb;
     ++count;
   }
-  // The picture holds the shade of its recesses, which is dark and red; a model gets the light of
-  // the lamp alone. The factors make it as bright in the view as what it continues.
-  const glm::dvec3 kInView(1.27, 1.38, 1.29);
+  // The picture holds the shade of its recesses, which is dark and red; a plate in the view has
+  // none, and the tint of its preset. The factors make it as bright there as what it continues.
+  const glm::dvec3 kInView(1.31, 1.29, 1.18);
   return count > 0.0 ? glm::round(100.0 * kInView * sum / count) / 100.0 : glm::dvec3(0.5);
 }
 

@@ -58,12 +58,14 @@ void ReplaceAll(std::string& text, const std::string& from, const std::string& t
     text.replace(at, from.size(), to);
 }
 
-// The list as a report has it. Whatever is of another kind is removed: it might hold a name.
-Json& CleanList(Json& list, Json::value_t kind) {
+// Leaves entries of one kind in a list of the report, if it has that list. Whatever is of another
+// kind is replaced by an empty one: it might hold a name.
+void CleanList(Json& report, const char* key, Json::value_t kind) {
+  if (!report.contains(key)) return;
+  Json& list = report[key];
   if (!list.is_array()) list = Json::array();
   for (Json& entry : list)
     if (entry.type() != kind) entry = Json(kind);
-  return list;
 }
 
 }  // namespace
@@ -113,25 +115,25 @@ FootageRecord WithoutNames(FootageRecord record) {
   Json report;
   if (!record.report.empty()) report = ParseOrderedJson(record.report, Code::kBadData);
   if (!report.is_object()) report = Json::object();
+  CleanList(report, "warnings", Json::value_t::string);
+  CleanList(report, "clips", Json::value_t::object);
+  CleanList(report, "frames", Json::value_t::object);
   for (std::size_t i = 0; i < record.clips.size(); ++i) {
     ClipFile& clip = record.clips[i];
     const std::string name = fmt::format("clip {}", i + 1);
     // Sentences may name the clip.
     if (report.contains("warnings"))
-      for (Json& warning : CleanList(report["warnings"], Json::value_t::string))
+      for (Json& warning : report["warnings"])
         for (const std::string& old : {clip.file, clip.name})
           ReplaceAll(warning.get_ref<std::string&>(), old, name);
-    if (report.contains("clips")) {
-      Json& clips = CleanList(report["clips"], Json::value_t::object);
-      if (i < clips.size()) clips[i]["file"] = name;
-    }
+    if (report.contains("clips") && i < report["clips"].size()) report["clips"][i]["file"] = name;
     clip.name = name;
     clip.file.clear();
     clip.beside.clear();
   }
   if (report.contains("footage")) report["footage"] = "";
   if (report.contains("frames"))
-    for (Json& frame : CleanList(report["frames"], Json::value_t::object)) frame["source"] = "";
+    for (Json& frame : report["frames"]) frame["source"] = "";
   if (!record.report.empty()) record.report = report.dump(1) + "\n";
   return record;
 }

@@ -1,4 +1,4 @@
-// Constants of how a model looks.
+// Constants of how a model looks, and the diffuse light of a tissue.
 const float kBackOfLens = 2.42;    // 2 * 1.1^2: directions beyond 1.1 window radii are not drawn
 const float kMostOffPlace = 0.12;  // window radii
 #ifdef TISSUE

@@ -34,7 +34,7 @@ const float kFineTint = 0.025;
 
 #ifdef FIBRES
 const float kAlong = 9.0;                // length of a bundle in its widths
-const float kBundleHeight = 0.12, kBundleTint = 0.16;  // in its widths; share of the colour
+const float kBundleHeight = 0.145, kBundleTint = 0.16;  // in its widths; share of the colour
 const float kEdge = 0.30;                // share of the width that the free edge is pale
 const float kRedFrom = 0.38, kRedTo = 0.85;
 const float kRedUneven = 0.16;
@@ -47,7 +47,7 @@ const float kFibril = 3.3, kFibrilTint = 0.14;           // fibrils per bundle; 
 #ifdef HYALINE
 // Clouds of a millimetre and of less than half of one, as in the cartilage of a phantom.
 const float kCloudRate = 770.0, kMottleRate = 2300.0;  // 1/m
-const float kCloudTint = 0.03, kMottleTint = 0.055;
+const float kCloudTint = 0.035, kMottleTint = 0.064;
 #endif
 
 Pattern patternAt(vec3 normal) {

@@ -279,16 +279,11 @@ TEST_F(DisturbedView, BubblesChangeThePictureOnlyWhereTheyAre) {
     air.bubbles = strength;
     const auto bits = app::Bubbles(air, picture_.view, picture_.field_of_view);
     const ColourImage picture = Draw(air);
-    int changed = 0, elsewhere = 0;
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x) {
-        if (std::equal(picture.at(x, y), picture.at(x, y) + 3, clear.at(x, y))) continue;
-        ++changed;
-        const glm::dvec2 at((x + 0.5) / (0.5 * kSize) - 1.0, 1.0 - (y + 0.5) / (0.5 * kSize));
-        elsewhere += std::ranges::none_of(bits, [&](const app::DriftingBit& bit) {
-          return glm::distance(at, bit.centre) < bit.radius * (1 + 1.0 * bit.softness) + 0.02;
-        });
-      }
+    const auto [changed, elsewhere] = ChangedBetween(clear, picture, [&](const glm::dvec2& at) {
+      return std::ranges::any_of(bits, [&](const app::DriftingBit& bit) {
+        return glm::distance(at, bit.centre) < bit.radius * (1 + 1.0 * bit.softness) + 0.02;
+      });
+    });
     std::printf("bubbles %.1f: %d of %d in sight, %d px changed, discs of %.0f px\n", strength,
                 int(bits.size()), app::BubbleCount(strength), changed, DiscArea(bits, 0));
     EXPECT_EQ(elsewhere, 0);

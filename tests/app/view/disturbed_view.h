@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include <glm/vec2.hpp>
+
 #include "app/view/drawing/disturbances.h"
 #include "tests/app/view/view_scene.h"
 
@@ -36,6 +38,26 @@ class DisturbedView : public ViewTest {
   static constexpr double kTip = 2e-3;
   app::Picture picture_ = app::PictureFromPose({0, 0, 0, kTip}, 0.0, 1.4);
 };
+
+// Pixels that differ between two pictures, and those of them where no change is expected.
+struct ChangedPixels {
+  int all = 0, elsewhere = 0;
+};
+// `is_expected` takes a place in the window, right and up, in window radii.
+template <class IsExpected>
+ChangedPixels ChangedBetween(const ColourImage& before, const ColourImage& after,
+                             const IsExpected& is_expected) {
+  ChangedPixels changed;
+  const double half = 0.5 * after.width;
+  for (int y = 0; y < after.height; ++y)
+    for (int x = 0; x < after.width; ++x) {
+      if (std::equal(after.at(x, y), after.at(x, y) + 3, before.at(x, y))) continue;
+      ++changed.all;
+      changed.elsewhere +=
+          is_expected(glm::dvec2((x + 0.5) / half - 1.0, 1.0 - (y + 0.5) / half)) ? 0 : 1;
+    }
+  return changed;
+}
 
 inline ColourImage Grey(std::uint8_t level) {
   ColourImage image(256, 256);

@@ -49,16 +49,11 @@ TEST_F(DisturbedView, FlecksChangeThePictureOnlyWhereTheyAre) {
   picture_.flecks = app::kUsualFlecks;
   const auto flecks = app::Flecks(picture_.flecks, still, picture_.view, picture_.field_of_view);
   const ColourImage picture = Draw(still);
-  int changed = 0, elsewhere = 0;
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
-      if (std::equal(picture.at(x, y), picture.at(x, y) + 3, clear.at(x, y))) continue;
-      ++changed;
-      const glm::dvec2 at((x + 0.5) / (0.5 * kSize) - 1.0, 1.0 - (y + 0.5) / (0.5 * kSize));
-      elsewhere += std::ranges::none_of(flecks, [&](const app::DriftingBit& fleck) {
-        return glm::distance(at, fleck.centre) < 1.5 * fleck.radius * (1 + fleck.softness) + 0.01;
-      });
-    }
+  const auto [changed, elsewhere] = ChangedBetween(clear, picture, [&](const glm::dvec2& at) {
+    return std::ranges::any_of(flecks, [&](const app::DriftingBit& fleck) {
+      return glm::distance(at, fleck.centre) < 1.5 * fleck.radius * (1 + fleck.softness) + 0.01;
+    });
+  });
   std::printf("%d flecks change %.2f %% of the pixels\n", int(flecks.size()),
               100.0 * changed / (kSize * kSize));
   EXPECT_EQ(elsewhere, 0);
