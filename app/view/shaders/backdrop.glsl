@@ -125,10 +125,12 @@ void main() {
              isStep * smoothstep(kSide, kFullSide, (looks.z - looks.x) / way)) *
          (1.0 - foot);
   // A noisy relief is footage, whose own blur is wider than the smear: near the upper edge its
-  // texels are the right ones.
-  side *= (1.0 - foot) * mix(1.0, below, step(kNoisySide, radius * leastSide));
+  // texels are at the right place. They are blurred there all the same: a texel across the edge
+  // would be a stripe down the side.
+  side *= 1.0 - foot;
   dx += side * kSideBlur / texels * vec2(1.0, 0.0);
   dy += side * kSideBlur / texels * vec2(0.0, 1.0);
+  side *= mix(1.0, below, step(kNoisySide, radius * leastSide));
   vec2 shift = kSideShift / kLookTexels * reliefTexels / texels * up;
   vec2 edgePlace = uv + kEdgeShare * shift;
   uv += side * shift;

@@ -93,6 +93,37 @@ TEST_F(DrawnRelief, TheSideOfAStepHasSmoothEdges) {
   }
 }
 
+// A step of 8 mm in a relief of footage, with stripes of 4 texels across it. On its side a texel is
+// drawn many times as high as wide, so that the stripes would be a comb.
+TEST_F(DrawnRelief, TheSideOfAStepOfFootageIsNoComb) {
+  constexpr int kSize = 480;
+  DepthMap depth(kTexels, kTexels);
+  ColourImage stripes(kTexels, kTexels);
+  for (int y = 0; y < kTexels; ++y)
+    for (int x = 0; x < kTexels; ++x) {
+      depth.at(x, y) = y - kTexels / 2 > 40 ? 0.028f : 0.020f;
+      for (int c = 0; c < 3; ++c)
+        stripes.rgb[3 * static_cast<std::size_t>(y * kTexels + x) + static_cast<std::size_t>(c)] =
+            x / 4 % 2 == 0 ? 110 : 190;
+    }
+  view_->SetBackdrop(stripes, depth, backdrop_, DepthMap(kTexels, kTexels, 1.5e-4f));
+  picture_.relief = kUsualRelief;
+  view_->Render(picture_, kSize);
+  const ColourImage drawn = view_->ReadPixels();
+  const auto contrast = [&](int y) {
+    constexpr int kLeft = 180, kRight = 300;
+    double sum = 0, squares = 0;
+    for (int x = kLeft; x < kRight; ++x) sum += drawn.at(x, y)[1];
+    const double mean = sum / (kRight - kLeft);
+    for (int x = kLeft; x < kRight; ++x) squares += std::pow(drawn.at(x, y)[1] - mean, 2);
+    return std::sqrt(squares / (kRight - kLeft));
+  };
+  // The foot of the side lies at row 131, its upper edge at 290.
+  EXPECT_GT(contrast(100), 30);
+  EXPECT_GT(contrast(300), 30);
+  for (int y = 136; y <= 284; ++y) EXPECT_LT(contrast(y), 2) << "row " << y;
+}
+
 // The anterior horn of the demo's meniscus: a crest some 0.5 mm thick along the rays, 15 mm before
 // what is behind it. Rays that pass through it make stairs of whole cells.
 TEST_F(DrawnRelief, TheThinCrestOfTheDemoIsClosed) {
