@@ -92,6 +92,10 @@ void LookAtOrigins(const LoadedScene& loaded, double range, SceneFindings& findi
         fmt::format("the depth map differs by noise of {:.3g} mm from pixel to pixel, and no "
                     "backdrop.depth_sigma states it; picture and forces smooth it",
                     Mm(*relief.median_sigma)));
+  else if (relief.median_sigma && !(*relief.median_sigma > 0))
+    findings.hints.push_back(
+        "backdrop.depth_sigma says that most depths are exact, so picture and forces keep all of "
+        "their noise; remove it from the scene if their error is not known");
   if (relief.without_origin > 0)
     findings.warnings.push_back(
         fmt::format("{:.1f} % of the depths have no origin in backdrop.depth_origin; is it that of "

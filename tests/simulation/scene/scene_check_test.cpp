@@ -171,6 +171,18 @@ TEST(SceneCheck, SaysThatADepthMapIsMostlyNoise) {
                    "its noise is 0.6 mm, and its depths span 3 mm; outlines are not drawn"));
 }
 
+TEST(SceneCheck, HintsAtErrorsOfNought) {
+  LoadedScene loaded;
+  DepthMap depth(10, 10, 0.01f);
+  depth.at(3, 3) = 0.013f;
+  loaded.depth = Share(depth);
+  loaded.scene.backdrop.depth_sigma = "depth-sigma.tiff";
+  loaded.depth_sigma = Share(DepthMap(10, 10, 4e-4f));
+  EXPECT_FALSE(Says(CheckScene(loaded).hints, "most depths are exact"));
+  loaded.depth_sigma = Share(DepthMap(10, 10, 0.0f));
+  EXPECT_TRUE(Says(CheckScene(loaded).hints, "most depths are exact"));
+}
+
 TEST(SceneCheck, WarnsOfDepthsWithoutOriginOrError) {
   LoadedScene loaded;
   DepthMap sigma(10, 10, 4e-4f);
