@@ -219,10 +219,13 @@ TEST_F(CalibrateIncision, ARecordedHandThatKeepsSwingingMendsAWrongRig) {
   ASSERT_EQ(work().found().status, PivotStatus::kOk) << work().found().reason;
   EXPECT_GT(work().poses().size(), 100u);
   EXPECT_LT(glm::distance(*work().found().pivot, truth.pivot), 3 * work().found().sigma);
+  // The swing goes on in these frames, and a later fit may find another pivot than the one in use.
+  const glm::dvec3 used = *work().found().pivot;
   app::Run(state, "use-incision");
   Frames(3);
   EXPECT_LT(off(), 3 * work().found().sigma) << "the practice goes on with it";
-  EXPECT_EQ(ReadRig(rig).scope->mount.pivot, *work().found().pivot);
+  EXPECT_EQ(Mount().pivot, used);
+  EXPECT_EQ(ReadRig(rig).scope->mount.pivot, used);
 }
 
 TEST_F(CalibrateIncision, OfADeviceWithoutARodIsNotOffered) {
