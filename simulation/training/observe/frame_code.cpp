@@ -4,11 +4,12 @@
 #include <cmath>
 #include <cstring>
 
+#include "simulation/core/byte_stream.h"
+
 namespace arthro::simulation {
 namespace {
 
 constexpr int kWholeEvery = 1000;  // frames
-constexpr std::size_t kMask = (kFrameWords + 7) / 8;
 
 // Visits the values of a frame in the order of the words, except the flags of the targets.
 template <class Frame, class V>
@@ -60,8 +61,10 @@ TakenWords TakenOf(const AttemptFrame& frame) {
   return taken;
 }
 
-// First byte of a frame.
-constexpr unsigned kWhole = 1, kHasTaken = 2;
+// First byte of a frame. kHasSmall: its values are distances as numbers of few bytes. kHasOldMask:
+// the mask of the frame before counts, and is left out.
+constexpr unsigned kWhole = 1, kHasTaken = 2, kHasSmall = 4, kHasOldMask = 8;
+constexpr unsigned kAllFlags = kWhole | kHasTaken | kHasSmall | kHasOldMask;
 
 struct Packer {
   FrameWords& words;
@@ -115,6 +118,16 @@ void FromDifferences(FrameWords& words) {
   TakeFrom(words, kHeadRoll, kRoll, 1);
 }
 
+bool HasChanged(const FrameMask& mask, std::size_t i) {
+  return (static_cast<unsigned>(mask[i / 8]) >> i % 8 & 1U) != 0;
+}
+
+// Word that a straight line through the two frames before leads to: hands move smoothly, and the
+// bits of a float follow its value.
+std::uint32_t Expected(const FramesBefore& before, std::size_t i) {
+  return 2 * before.words[i] - before.older[i];
+}
+
 }  // namespace
 
 TakenWords NothingTaken() { return TakenOf(AttemptFrame()); }
@@ -129,57 +142,66 @@ void FrameEncoder::Encode(const AttemptFrame& frame, std::string& bytes) {
   ToDifferences(words);
   const bool is_whole = since_whole_ == 0;
   since_whole_ = (since_whole_ + 1) % kWholeEvery;
-  if (is_whole) before_ = {}, taken_ = NothingTaken();
+  if (is_whole) before_ = {};
   const TakenWords taken = TakenOf(frame);
-  const bool has_taken = taken != taken_;
-  bytes.assign(1 + kMask, '\0');
-  bytes[0] = static_cast<char>((is_whole ? kWhole : 0) | (has_taken ? kHasTaken : 0));
+  FrameMask mask{};
+  std::size_t changed = 0;
+  values_.clear();
   for (std::size_t i = 0; i < kFrameWords; ++i) {
-    if (words[i] == before_[i]) continue;
-    bytes[1 + i / 8] =
-        static_cast<char>(static_cast<unsigned char>(bytes[1 + i / 8]) | 1u << i % 8);
-    bytes.append(reinterpret_cast<const char*>(&words[i]), sizeof words[i]);
+    if (words[i] == before_.words[i]) continue;
+    mask[i / 8] = static_cast<std::uint8_t>(mask[i / 8] | 1U << i % 8);
+    PutSmall(values_, static_cast<std::int32_t>(words[i] - Expected(before_, i)));
+    ++changed;
   }
-  before_ = words;
-  if (has_taken) bytes.append(reinterpret_cast<const char*>(taken.data()), sizeof taken);
-  taken_ = taken;
+  const bool has_taken = taken != before_.taken, has_old_mask = !is_whole && mask == before_.mask,
+             has_small = values_.size() < changed * sizeof(std::uint32_t);
+  bytes.assign(1,
+               static_cast<char>((is_whole ? kWhole : 0) | (has_taken ? kHasTaken : 0) |
+                                 (has_small ? kHasSmall : 0) | (has_old_mask ? kHasOldMask : 0)));
+  if (!has_old_mask) PutBytes(bytes, mask);
+  if (has_small) {
+    bytes.append(values_);
+  } else {
+    for (std::size_t i = 0; i < kFrameWords; ++i)
+      if (HasChanged(mask, i)) PutBytes(bytes, words[i]);
+  }
+  if (has_taken) PutBytes(bytes, taken);
+  before_ = {words, before_.words, mask, taken};
 }
 
 bool FrameDecoder::Decode(std::string_view bytes, AttemptFrame& frame) {
-  if (bytes.size() < 1 + kMask) return false;
-  const auto head = static_cast<unsigned char>(bytes[0]);
-  if (head > (kWhole | kHasTaken)) return false;
-  if ((head & kWhole) != 0) before_ = {}, taken_ = NothingTaken();
-  std::string_view values = bytes.substr(1 + kMask);
-  if ((head & kHasTaken) != 0) {
-    if (values.size() < sizeof taken_) return false;
-    std::memcpy(taken_.data(), values.data() + values.size() - sizeof taken_, sizeof taken_);
-    values.remove_suffix(sizeof taken_);
-  }
+  std::uint8_t head = 0;
+  if (!TakeBytes(bytes, head) || head > kAllFlags) return false;
+  if ((head & kWhole) != 0) before_ = {};
+  if ((head & kHasOldMask) == 0 && !TakeBytes(bytes, before_.mask)) return false;
+  const bool has_small = (head & kHasSmall) != 0;
+  FrameWords words = before_.words;
   for (std::size_t i = 0; i < kFrameWords; ++i) {
-    if ((static_cast<unsigned char>(bytes[1 + i / 8]) >> i % 8 & 1u) == 0) continue;
-    if (values.size() < sizeof before_[i]) return false;
-    std::memcpy(&before_[i], values.data(), sizeof before_[i]);
-    values.remove_prefix(sizeof before_[i]);
+    if (!HasChanged(before_.mask, i)) continue;
+    std::int32_t distance = 0;
+    if (has_small ? !TakeSmall(bytes, distance) : !TakeBytes(bytes, words[i])) return false;
+    if (has_small) words[i] = Expected(before_, i) + static_cast<std::uint32_t>(distance);
   }
-  FrameWords words = before_;
+  if ((head & kHasTaken) != 0 && !TakeBytes(bytes, before_.taken)) return false;
+  before_.older = before_.words;
+  before_.words = words;
   FromDifferences(words);
   Unpacker unpacker{words};
   VisitFrame(frame, unpacker);
+  const TakenWords& taken = before_.taken;
   for (std::size_t i = 0; i < frame.sight.target.size(); ++i)
-    frame.sight.target[i].taken_share = taken_[i];
-  frame.taken_outside = taken_[kOutside];
-  frame.rim = taken_[kRim];
-  frame.contour = taken_[kContour];
-  for (const float taken : taken_)
-    if (std::isnan(taken)) return false;
+    frame.sight.target[i].taken_share = taken[i];
+  frame.taken_outside = taken[kOutside];
+  frame.rim = taken[kRim];
+  frame.contour = taken[kContour];
+  for (const float value : taken)
+    if (std::isnan(value)) return false;
   for (std::size_t i = 0; i < frame.sight.target.size(); ++i) {
     frame.sight.target[i].is_clear = (words[kClear] >> i & 1u) != 0;
     frame.sight.target[i].is_gone = (words[kGone] >> i & 1u) != 0;
   }
-  return values.empty() && unpacker.is_good &&
-         (words[kClear] | words[kGone]) >> kMostTargets == 0 && frame.sight.targets >= 0 &&
-         frame.sight.targets <= kMostTargets;
+  return bytes.empty() && unpacker.is_good && (words[kClear] | words[kGone]) >> kMostTargets == 0 &&
+         frame.sight.targets >= 0 && frame.sight.targets <= kMostTargets;
 }
 
 }  // namespace arthro::simulation

@@ -3,12 +3,16 @@
 #include "simulation/training/attempt_log.h"
 
 #include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
 #include <random>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "simulation/core/atomic_file.h"
+#include "simulation/core/byte_stream.h"
 #include "simulation/core/error.h"
 #include "simulation/training/assessment.h"
 #include "tests/support/temp_folder.h"
@@ -128,6 +132,81 @@ TEST_F(AttemptLogs, TenMinutesStayBelowTwentyMegabytes) {
              1e-6 * static_cast<double>(size), seconds);
   // The goal is one second on a quiet machine.
   EXPECT_LT(seconds, 20);
+}
+
+// Hands that swing once a second: from frame to frame their distance from a straight line is some
+// (2 pi / 100)² of the swing, which of 24 bits leaves 16, and so three bytes. The mask is left out.
+TEST(FrameCode, SmoothHandsTakeThreeBytesForAWordAndNoMask) {
+  FrameEncoder encoder;
+  FrameDecoder decoder;
+  std::string bytes;
+  constexpr std::size_t kMoving = 2 * 8;  // words
+  std::size_t sum = 0;
+  for (int i = 0; i < 900; ++i) {
+    const double t = kFrameTime * i, swing = std::sin(2 * std::numbers::pi * t);
+    AttemptFrame frame;
+    for (ToolFrame& tool : frame.tool) {
+      tool.tip = {0.01 * swing, 0.012 * std::cos(5 * t), 0.03 + 0.002 * swing};
+      tool.drawn_tip = tool.tip;
+      tool.axis = {0.3 * swing, 0.4 * std::cos(5 * t), 0.9};
+      tool.roll = static_cast<float>(0.2 * std::cos(3 * t));
+      tool.depth = static_cast<float>(0.03 + 0.002 * swing);
+    }
+    encoder.Encode(frame, bytes);
+    AttemptFrame again;
+    ASSERT_TRUE(decoder.Decode(bytes, again));
+    ASSERT_EQ(again, frame);
+    if (i == 0) continue;  // it is whole
+    sum += bytes.size();
+  }
+  std::printf("%.1f bytes per frame, with whole words and mask %zu\n",
+              static_cast<double>(sum) / 899, 1 + sizeof(FrameMask) + kMoving * sizeof(float));
+  EXPECT_LT(sum, 899 * (1 + 3 * kMoving) + 899 * kMoving / 4)
+      << "one word in four may need a fourth";
+}
+
+// Frames of the first logs: a first byte of at most 3, a mask, whole words.
+TEST(FrameCode, FramesOfTheFirstLogsAreRead) {
+  FrameDecoder decoder;
+  const auto frame_of = [&](std::uint8_t head, float tip_x) {
+    std::string bytes;
+    FrameMask mask{};
+    mask[0] = 1;
+    PutBytes(bytes, head);
+    PutBytes(bytes, mask);
+    PutBytes(bytes, tip_x);
+    AttemptFrame frame;
+    EXPECT_TRUE(decoder.Decode(bytes, frame));
+    return frame;
+  };
+  for (const float tip_x : {0.25F, 0.5F, -3.0F}) {
+    const AttemptFrame frame = frame_of(tip_x == 0.25F ? 1 : 0, tip_x);
+    EXPECT_EQ(frame.tool[0].tip, glm::vec3(tip_x, 0, 0));
+    EXPECT_EQ(frame.tool[0].drawn_tip, frame.tool[0].tip) << "kept as its difference";
+    EXPECT_EQ(frame.lens, frame.tool[0].tip);
+    EXPECT_EQ(frame.tool[1].tip, glm::vec3(0));
+  }
+}
+
+// Frames that end early or late, and flags of a later program.
+TEST(FrameCode, DamagedFramesAreRefused) {
+  FrameEncoder encoder;
+  FrameDecoder before;
+  std::string bytes;
+  AttemptFrame frame;
+  for (int i = 0; i < 4; ++i) {
+    frame.tool[0].tip.x = 0.01F * static_cast<float>(i);
+    encoder.Encode(frame, bytes);
+    if (i == 3) break;
+    AttemptFrame again;
+    ASSERT_TRUE(before.Decode(bytes, again));
+  }
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    FrameDecoder decoder = before;
+    EXPECT_FALSE(decoder.Decode(std::string_view(bytes).substr(0, size), frame)) << size;
+  }
+  EXPECT_FALSE(FrameDecoder().Decode(bytes + "x", frame));
+  EXPECT_FALSE(FrameDecoder().Decode("\x10", frame));
 }
 
 TEST_F(AttemptLogs, FullDiskIsToldAtTheEnd) {
