@@ -7,6 +7,7 @@
 
 #include "app/view/backdrop/relief_filling.h"
 #include "app/view/backdrop/relief_outlines.h"
+#include "simulation/haptics/relief/plane_filters.h"
 
 namespace arthro::app {
 namespace {
@@ -94,18 +95,29 @@ ImagedMask MakeImagedMask(int width, int height, const DepthMap& depth, bool who
   return mask;
 }
 
-float Bilinear(const ImagedMask& mask, double u, double v) {
-  const double x = std::clamp(u * mask.width - 0.5, 0.0, mask.width - 1.0),
-               y = std::clamp(v * mask.height - 0.5, 0.0, mask.height - 1.0);
-  const int i = static_cast<int>(x), j = static_cast<int>(y);
-  const int right = std::min(i + 1, mask.width - 1), below = std::min(j + 1, mask.height - 1);
+// Places of a mask between which the middle of each of `texels` texels lies.
+struct Between {
+  int first = 0, second = 0;
+  float share = 0;  // weight of `second`
+};
+std::vector<Between> PlacesIn(int places, int texels) {
+  std::vector<Between> all(static_cast<std::size_t>(texels));
+  for (int i = 0; i < texels; ++i) {
+    const double at = std::clamp((i + 0.5) / texels * places - 0.5, 0.0, places - 1.0);
+    const int first = static_cast<int>(at);
+    all[static_cast<std::size_t>(i)] = {first, std::min(first + 1, places - 1),
+                                        static_cast<float>(at - first)};
+  }
+  return all;
+}
+
+float Bilinear(const ImagedMask& mask, const Between& x, const Between& y) {
   const auto at = [&](int column, int row) {
     return mask.share[static_cast<std::size_t>(row) * static_cast<std::size_t>(mask.width) +
                       static_cast<std::size_t>(column)];
   };
-  const auto fx = static_cast<float>(x - i), fy = static_cast<float>(y - j);
-  return (1 - fy) * ((1 - fx) * at(i, j) + fx * at(right, j)) +
-         fy * ((1 - fx) * at(i, below) + fx * at(right, below));
+  return (1 - y.share) * ((1 - x.share) * at(x.first, y.first) + x.share * at(x.second, y.first)) +
+         y.share * ((1 - x.share) * at(x.first, y.second) + x.share * at(x.second, y.second));
 }
 
 }  // namespace
@@ -235,31 +247,32 @@ ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap&
   };
   SmoothOutlines(drawn, whole_turn, sampled_sigma);
   FillUnknown(drawn);
-  for (int y = 0; y < relief.height; ++y)
-    for (int x = 0; x < relief.width; ++x) {
-      float* at = texel(x, y);
-      at[0] = drawn.at(x, y);
-      at[3] = Bilinear(mask, (x + 0.5) / relief.width, (y + 0.5) / relief.height);
-    }
-  for (int y = 0; y < relief.height; ++y) {
-    const int above = std::max(y - 1, 0), below = std::min(y + 1, relief.height - 1);
-    for (int x = 0; x < relief.width; ++x) {
-      int left = x - 1, right = x + 1;
-      if (whole_turn) {
-        left = (left + relief.width) % relief.width;
-        right %= relief.width;
-      } else {
-        left = std::max(left, 0);
-        right = std::min(right, relief.width - 1);
+  const std::vector<Between> columns = PlacesIn(mask.width, relief.width),
+                             rows = PlacesIn(mask.height, relief.height);
+  simulation::ForRowsOnTwoThreads(0, relief.height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      const int above = std::max(y - 1, 0), below = std::min(y + 1, relief.height - 1);
+      for (int x = 0; x < relief.width; ++x) {
+        int left = x - 1, right = x + 1;
+        if (whole_turn) {
+          left = (left + relief.width) % relief.width;
+          right %= relief.width;
+        } else {
+          left = std::max(left, 0);
+          right = std::min(right, relief.width - 1);
+        }
+        const int across = whole_turn ? 2 : std::max(right - left, 1);
+        float* at = texel(x, y);
+        at[0] = drawn.at(x, y);
+        at[1] = (drawn.at(right, y) - drawn.at(left, y)) * static_cast<float>(relief.width) /
+                static_cast<float>(across);
+        at[2] = (drawn.at(x, below) - drawn.at(x, above)) * static_cast<float>(relief.height) /
+                static_cast<float>(std::max(below - above, 1));
+        at[3] =
+            Bilinear(mask, columns[static_cast<std::size_t>(x)], rows[static_cast<std::size_t>(y)]);
       }
-      const int columns = whole_turn ? 2 : std::max(right - left, 1);
-      float* at = texel(x, y);
-      at[1] = (texel(right, y)[0] - texel(left, y)[0]) * static_cast<float>(relief.width) /
-              static_cast<float>(columns);
-      at[2] = (texel(x, below)[0] - texel(x, above)[0]) * static_cast<float>(relief.height) /
-              static_cast<float>(std::max(below - above, 1));
     }
-  }
+  });
   return relief;
 }
 
@@ -317,18 +330,21 @@ BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn, double
   };
   std::vector<float> sums(of(0, broad.height), 0.0f);  // along u, along v, weight
   std::vector<std::uint8_t> has_step(sums.size() / 3, 0);
-  for (int y = 0; y < relief.height; ++y)
-    for (int x = 0; x < relief.width; ++x) {
-      const float* at =
-          &relief.texels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(relief.width) +
+  simulation::ForRowsOnTwoThreads(0, broad.height, [&](int first, int last) {
+    for (int y = first * block; y < std::min(last * block, relief.height); ++y)
+      for (int x = 0; x < relief.width; ++x) {
+        const float* at =
+            &relief
+                 .texels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(relief.width) +
                               static_cast<std::size_t>(x))];
-      const float u = at[1] / static_cast<float>(relief.width),
-                  v = at[2] / static_cast<float>(relief.height);
-      const float weight = 1 / (1 + (u * u + v * v) / (kStep * kStep));
-      float* to = &sums[of(x / block, y / block)];
-      to[0] += weight * at[1], to[1] += weight * at[2], to[2] += weight;
-      if (u * u + v * v > kSteep * kSteep) has_step[of(x / block, y / block) / 3] = 1;
-    }
+        const float u = at[1] / static_cast<float>(relief.width),
+                    v = at[2] / static_cast<float>(relief.height);
+        const float weight = 1 / (1 + (u * u + v * v) / (kStep * kStep));
+        float* to = &sums[of(x / block, y / block)];
+        to[0] += weight * at[1], to[1] += weight * at[2], to[2] += weight;
+        if (u * u + v * v > kSteep * kSteep) has_step[of(x / block, y / block) / 3] = 1;
+      }
+  });
   BlurPlanes(sums, broad.width, broad.height, 3, blur / block, whole_turn);
   broad.slopes.resize(sums.size());
   for (int y = 0; y < broad.height; ++y)

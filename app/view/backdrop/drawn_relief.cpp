@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <thread>
 
 #include "app/view/backdrop/rough_relief.h"
 #include "simulation/core/units.h"
@@ -16,7 +17,7 @@ namespace {
 // third of the slope that a hand feels.
 constexpr double kLampBlur = 2;
 
-// Least height of a step that is drawn with a side, over the median standard error of the relief:
+// Least height of a step that is drawn with a side, over the median standard error of the samples:
 // five standard deviations of the difference of two texels, as outlines have (relief_outlines.cpp).
 constexpr double kSideOfError = 5 * std::numbers::sqrt2;
 
@@ -39,9 +40,16 @@ void MakeTextures(const glm::ivec2& panorama_size, const ReliefMaps& after,
   const auto& [depth, sigma] = after;
   made.is_noisy = !sigma.empty() && !depth.empty();
   const bool wraps = IsWholeTurn(backdrop.projection, panorama_size.x);
-  const double error = made.is_noisy ? SharesOf(depth, sigma, {}).median_sigma.value_or(0.0) : 0.0;
-  made.texture = MakeReliefTexture(panorama_size, depth, made.sampled, wraps, SampledRelief(sigma));
-  made.ceiling = MakeReliefCeiling(made.texture, wraps);
+  const DepthMap sampled_sigma = SampledRelief(sigma);
+  double error = 0;
+  {
+    const std::jthread other([&] {
+      if (made.is_noisy)
+        error = SharesOf(made.sampled, sampled_sigma, {}).median_sigma.value_or(0.0);
+    });
+    made.texture = MakeReliefTexture(panorama_size, depth, made.sampled, wraps, sampled_sigma);
+    made.ceiling = MakeReliefCeiling(made.texture, wraps);
+  }
   if (backdrop.relight > 0 || made.is_noisy)
     made.slopes = MakeBroadSlopes(
         made.texture, wraps,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <thread>
 #include <vector>
 
 namespace arthro::app {
@@ -195,8 +196,14 @@ void LayTreads(const Steps& steps, Laid& laid) {
 void SmoothOutlines(DepthMap& relief, bool whole_turn, const DepthMap& sigma) {
   const DepthMap stairs = relief;
   Laid laid{stairs, relief, std::vector<int>(stairs.relief.size(), 0)};
-  LayTreads(StepsAcrossRows(stairs, whole_turn, sigma), laid);
-  LayTreads(StepsAcrossColumns(stairs, whole_turn, sigma), laid);
+  Steps across_rows, across_columns;
+  {
+    const std::jthread other(
+        [&] { across_columns = StepsAcrossColumns(stairs, whole_turn, sigma); });
+    across_rows = StepsAcrossRows(stairs, whole_turn, sigma);
+  }
+  LayTreads(across_rows, laid);
+  LayTreads(across_columns, laid);
 }
 
 }  // namespace arthro::app

@@ -2,6 +2,7 @@
 // border have no mass: their value is 0.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
@@ -33,11 +34,21 @@ void Widen(Plane& data, int width, int height, int gap, const OuterTaps& taps,
 void WidenAll(std::span<Plane* const> planes, int width, int height, int gap, const OuterTaps& taps,
               const PixelBounds& window);
 
-// Replaces each value by the maximum over the square of (2 reach + 1) pixels about it.
+// Replaces each value by the maximum over the square of (2 reach + 1) pixels about it, on two
+// threads.
 void Dilate(Plane& data, int width, int height, int reach);
 
 // Runs `rows(first, last)` on two halves of the rows from `begin` to `end`, on two threads. Each
 // call writes only its own rows, so that the result does not depend on the threads.
 void ForRowsOnTwoThreads(int begin, int end, const std::function<void(int first, int last)>& rows);
+
+// The same for pixels in any shape: runs `pixel(i)`, which writes only what belongs to its pixel.
+template <class Pixel>
+void ForPixelsOnTwoThreads(std::size_t count, const Pixel& pixel) {
+  ForRowsOnTwoThreads(0, static_cast<int>(count), [&](int first, int last) {
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+      pixel(i);
+  });
+}
 
 }  // namespace arthro::simulation

@@ -14,6 +14,7 @@
 
 #include "simulation/core/error.h"
 #include "simulation/haptics/relief/plane_filters.h"
+#include "simulation/haptics/relief/plane_moments.h"
 #include "simulation/haptics/relief/relief_steps.h"
 
 namespace arthro::simulation {
@@ -52,13 +53,7 @@ OuterTaps TapsBetween(const Plane& near, const Plane& heights, const Plane& sigm
   return taps;
 }
 
-// Place of a map within a larger one, px. Filters of a part give the bytes that they give in the
-// whole, away from the edges of the part.
-struct Frame {
-  int left = 0, top = 0;
-  int width = 0, height = 0;  // size of the whole
-};
-Frame WholeOf(const DepthMap& map) { return {0, 0, map.width, map.height}; }
+MapFrame WholeOf(const DepthMap& map) { return {0, 0, map.width, map.height}; }
 PixelBounds AllOf(const DepthMap& map) { return {0, 0, map.width, map.height}; }
 
 // Sums of a normalised convolution.
@@ -68,11 +63,11 @@ struct Sums {
 
 Sums SumsOf(const DepthMap& depth, int passes) {
   Sums sums{depth.relief, Plane(depth.relief.size())};
-  for (std::size_t i = 0; i < depth.relief.size(); ++i) {
+  ForPixelsOnTwoThreads(depth.relief.size(), [&](std::size_t i) {
     const bool is_imaged = std::isfinite(depth.relief[i]);
     sums.mass[i] = is_imaged ? 1.0f : 0.0f;
     if (!is_imaged) sums.value[i] = 0.0f;
-  }
+  });
   for (Plane* plane : {&sums.value, &sums.mass})
     FilterBinomial(*plane, depth.width, depth.height, passes);
   return sums;
@@ -85,70 +80,11 @@ void WidenSums(Sums& sums, int width, int height, std::initializer_list<int> gap
 
 Plane Ratio(const Sums& sums) {
   Plane ratio(sums.value.size());
-  for (std::size_t i = 0; i < ratio.size(); ++i)
+  ForPixelsOnTwoThreads(ratio.size(), [&](std::size_t i) {
     ratio[i] = sums.mass[i] > 0.0f ? sums.value[i] / sums.mass[i] : 0.0f;
+  });
   return ratio;
 }
-
-// Weighted sums over a kernel about each pixel, for the plane that fits its heights best. Beside a
-// hole the kernel lies to one side, and the plane leads back from its centre of mass.
-class Moments {
- public:
-  // `sums`: heights times masses, and masses, of which the first kernel is one pixel wide.
-  Moments(Sums sums, int width, int height, const Frame& frame)
-      : width_(width),
-        frame_(frame),
-        centre_x_(0.5f * static_cast<float>(frame.width)),
-        centre_y_(0.5f * static_cast<float>(frame.height)),
-        m_(std::move(sums.mass)),
-        h_(std::move(sums.value)),
-        x_(m_),
-        y_(m_),
-        xx_(m_),
-        xy_(m_),
-        yy_(m_),
-        hx_(h_),
-        hy_(h_) {
-    ForRowsOnTwoThreads(0, height, [&](int first, int last) {
-      for (int row = first; row < last; ++row)
-        for (int column = 0; column < width; ++column) {
-          const std::size_t i = At(column, row);
-          const float x = static_cast<float>(frame_.left + column) - centre_x_,
-                      y = static_cast<float>(frame_.top + row) - centre_y_;
-          x_[i] *= x, y_[i] *= y, hx_[i] *= x, hy_[i] *= y;
-          xx_[i] *= x * x, xy_[i] *= x * y, yy_[i] *= y * y;
-        }
-    });
-  }
-  std::array<Plane*, 9> All() { return {&m_, &h_, &x_, &y_, &xx_, &xy_, &yy_, &hx_, &hy_}; }
-
-  // Height of the plane at the pixel, which has mass.
-  float PlaneAt(int column, int row) const {
-    const std::size_t i = At(column, row);
-    const float per_mass = 1.0f / m_[i];
-    const float x = x_[i] * per_mass, y = y_[i] * per_mass, h = h_[i] * per_mass;
-    // A pixel is as wide as a variance of 1/12; this also keeps a single row from being singular.
-    constexpr float kOfPixel = 1.0f / 12.0f;
-    const float xx = xx_[i] * per_mass - x * x + kOfPixel, xy = xy_[i] * per_mass - x * y,
-                yy = yy_[i] * per_mass - y * y + kOfPixel;
-    const float hx = hx_[i] * per_mass - h * x, hy = hy_[i] * per_mass - h * y;
-    const float det = xx * yy - xy * xy;
-    const float du = static_cast<float>(frame_.left + column) - centre_x_ - x,
-                dv = static_cast<float>(frame_.top + row) - centre_y_ - y;
-    if (!(det > 0.0f)) return h;
-    return h + ((yy * hx - xy * hy) * du + (xx * hy - xy * hx) * dv) / det;
-  }
-
- private:
-  std::size_t At(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(x);
-  }
-  int width_;
-  Frame frame_;
-  float centre_x_, centre_y_;
-  Plane m_, h_, x_, y_, xx_, xy_, yy_, hx_, hy_;
-};
 
 // Smooths the variance over about four pixels, so that the force changes gradually where the
 // standard error does. Zero where nothing was imaged. Empty where no error is known.
@@ -159,15 +95,15 @@ Plane SmoothSigma(const DepthMap& depth, const DepthMap& sigma) {
     if (std::isfinite(s)) largest = std::max(largest, s), is_known = true;
   if (!is_known || sigma.relief.size() != depth.relief.size()) return {};
   Sums sums{Plane(depth.relief.size(), 0.0f), Plane(depth.relief.size(), 0.0f)};
-  for (std::size_t i = 0; i < depth.relief.size(); ++i) {
-    if (!std::isfinite(depth.relief[i])) continue;
+  ForPixelsOnTwoThreads(depth.relief.size(), [&](std::size_t i) {
+    if (!std::isfinite(depth.relief[i])) return;
     const float s = std::isfinite(sigma.relief[i]) ? sigma.relief[i] : largest;
     sums.value[i] = s * s;
     sums.mass[i] = 1.0f;
-  }
+  });
   WidenSums(sums, depth.width, depth.height, {1, 1, 2, 2, 4});
   Plane smooth = Ratio(sums);
-  for (float& variance : smooth) variance = std::sqrt(variance);
+  ForPixelsOnTwoThreads(smooth.size(), [&](std::size_t i) { smooth[i] = std::sqrt(smooth[i]); });
   return smooth;
 }
 
@@ -195,7 +131,7 @@ struct WantedSmoothing {
 
 WantedSmoothing SmoothingFor(const DepthMap& depth, const Plane& height, const Plane& sigma,
                              const Backdrop& backdrop, const NoiseLimits& limits,
-                             const Frame& frame) {
+                             const MapFrame& frame) {
   WantedSmoothing wanted{Plane(height.size(), 0.0f), Plane(height.size(), 0.0f)};
   ForRowsOnTwoThreads(0, depth.height, [&](int first, int last) {
     for (int y = first; y < last; ++y)
@@ -217,8 +153,9 @@ Plane NearStepsOf(const DepthMap& depth, const Plane& sigma, const WantedSmoothi
   Sums sums = SumsOf(depth, 0);
   WidenSums(sums, depth.width, depth.height, {1, 1, 2, 2});  // a standard deviation of 2.2 px
   Plane smooth = Ratio(sums);
-  for (std::size_t i = 0; i < smooth.size(); ++i)
+  ForPixelsOnTwoThreads(smooth.size(), [&](std::size_t i) {
     if (!std::isfinite(depth.relief[i])) smooth[i] = depth.relief[i];
+  });
   Plane near =
       NearSteps(depth.width, depth.height, smooth, sigma, wanted.deviation, wanted.pixel_size);
   if (near.empty()) return near;
@@ -279,7 +216,7 @@ struct SmoothedPart {
 
 // `wanted`: pixels of `depth` whose heights are asked for.
 SmoothedPart SmoothPart(const DepthMap& depth, int passes, const DepthMap& sigma,
-                        const Backdrop& backdrop, const NoiseLimits& limits, const Frame& frame,
+                        const Backdrop& backdrop, const NoiseLimits& limits, const MapFrame& frame,
                         const PixelBounds& wanted, const std::atomic<bool>* stop = nullptr) {
   Sums sums = SumsOf(depth, passes);
   SmoothedPart part{{Ratio(sums), SmoothSigma(depth, sigma)}};
@@ -291,7 +228,7 @@ SmoothedPart SmoothPart(const DepthMap& depth, int passes, const DepthMap& sigma
   part.widest = *std::max_element(smoothing.deviation.begin(), smoothing.deviation.end());
   const Plane near = part.widest > 0.0f ? NearStepsOf(depth, touched.sigma, smoothing) : Plane();
 
-  Moments moments(std::move(sums), w, h, frame);
+  PlaneMoments moments(std::move(sums.mass), std::move(sums.value), w, h, frame);
   Plane before = touched.height;
   std::vector<int> gaps = GapsOf(static_cast<double>(part.widest));
   while (!gaps.empty() && gaps.back() >= std::max(w, h)) gaps.pop_back();
@@ -306,16 +243,19 @@ SmoothedPart SmoothPart(const DepthMap& depth, int passes, const DepthMap& sigma
     const OuterTaps taps = TapsBetween(near, before, touched.sigma, w, h, gap, window);
     WidenAll(moments.All(), w, h, gap, taps, window);
     ForRowsOnTwoThreads(window.top, window.bottom, [&](int first, int last) {
-      for (int y = first; y < last; ++y)
-        for (int x = window.left; x < window.right; ++x) {
-          const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
-                                static_cast<std::size_t>(x);
+      Plane planes(static_cast<std::size_t>(window.width()));
+      for (int y = first; y < last; ++y) {
+        moments.PlanesAt(y, window.left, window.right, planes.data());
+        const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
+                                  static_cast<std::size_t>(window.left);
+        for (std::size_t x = 0; x < planes.size(); ++x) {
+          const std::size_t i = begin + x;
           const float rest = smoothing.deviation[i] * smoothing.deviation[i] - variance;
           if (!(rest > 0.0f)) continue;
-          const float after = moments.PlaneAt(x, y);
-          touched.height[i] += std::min(1.0f, rest / added) * (after - before[i]);
-          before[i] = after;
+          touched.height[i] += std::min(1.0f, rest / added) * (planes[x] - before[i]);
+          before[i] = planes[x];
         }
+      }
     });
     variance += added;
   }
@@ -369,13 +309,14 @@ struct QuietMap {
 };
 
 QuietMap WithoutNoiseIn(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop,
-                        const Frame& frame, const PixelBounds& wanted,
+                        const MapFrame& frame, const PixelBounds& wanted,
                         const std::atomic<bool>* stop) {
   QuietMap quiet{MediansOf(depth, sigma)};
   const SmoothedPart part = SmoothPart(quiet.relief, 0, sigma, backdrop, {}, frame, wanted, stop);
   quiet.widest = part.widest;
-  for (std::size_t i = 0; i < depth.relief.size(); ++i)
+  ForPixelsOnTwoThreads(depth.relief.size(), [&](std::size_t i) {
     if (std::isfinite(depth.relief[i])) quiet.relief.relief[i] = part.touched.height[i];
+  });
   return quiet;
 }
 

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <thread>
 #include <utility>
 
 #include "simulation/haptics/relief/plane_filters.h"
@@ -51,9 +50,11 @@ struct Lines {
 float KeepLongLines(const Lines& lines, const Plane& smoothing, const StepLimits& limits,
                     Plane& kept) {
   std::vector<std::uint8_t> is_open(lines.marks.size(), 0);
-  for (int y = 0; y < lines.height; ++y)
-    for (int x = 0; x < lines.width; ++x)
-      is_open[lines.At(x, y)] = lines.IsBeside(x, y, kSteep) ? 1 : 0;
+  ForRowsOnTwoThreads(0, lines.height, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      for (int x = 0; x < lines.width; ++x)
+        is_open[lines.At(x, y)] = lines.IsBeside(x, y, kSteep) ? 1 : 0;
+  });
   float widest = 0.0f;
   std::vector<std::pair<int, int>> line;
   for (int top = 0; top < lines.height; ++top)
@@ -92,30 +93,26 @@ std::vector<float> NearSteps(int width, int height, const std::vector<float>& sm
                              const std::vector<float>& pixel_size, const StepLimits& limits) {
   // Highest and lowest relief within reach, and the least error: one certain side suffices.
   Plane high(smooth.size()), low(smooth.size()), error(smooth.size());
-  for (std::size_t i = 0; i < smooth.size(); ++i) {
+  ForPixelsOnTwoThreads(smooth.size(), [&](std::size_t i) {
     const bool is_known = std::isfinite(smooth[i]);
     high[i] = is_known ? smooth[i] : -kNothing;
     low[i] = is_known ? -smooth[i] : -kNothing;
     error[i] = is_known ? -sigma[i] : -kNothing;
-  }
-  {
-    const std::jthread other([&] { Dilate(high, width, height, limits.reach); });
-    Dilate(low, width, height, limits.reach);
-    Dilate(error, width, height, limits.reach);
-  }
+  });
+  for (Plane* const plane : {&high, &low, &error}) Dilate(*plane, width, height, limits.reach);
 
   Lines lines{width, height, std::vector<std::uint8_t>(smooth.size(), kOrdinary)};
-  for (std::size_t i = 0; i < smooth.size(); ++i) {
-    if (!std::isfinite(smooth[i]) || !(smoothing[i] > 0.0f)) continue;
+  ForPixelsOnTwoThreads(smooth.size(), [&](std::size_t i) {
+    if (!std::isfinite(smooth[i]) || !(smoothing[i] > 0.0f)) return;
     const auto least = static_cast<float>(
         std::max(-limits.errors * static_cast<double>(error[i]),
                  2.0 * limits.slope * limits.reach * static_cast<double>(pixel_size[i])));
     const float step = high[i] + low[i];
-    if (step < kLeastShare * least) continue;
+    if (step < kLeastShare * least) return;
     lines.marks[i] = static_cast<std::uint8_t>(
         kSteep | (smooth[i] > 0.5f * (high[i] - low[i]) ? kHigh : kOrdinary) |
         (step >= least ? kCertain : kOrdinary));
-  }
+  });
   Plane near(smooth.size(), 0.0f);
   const float widest = KeepLongLines(lines, smoothing, limits, near);
   if (!(widest > 0.0f)) return {};

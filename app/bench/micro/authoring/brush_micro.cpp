@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 #include <memory>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -170,8 +171,17 @@ MicroGroup BrushMicro(bool quick) {
     made->OnWindowThread();
     return made;
   });
+  // Both at the same time, as in the window: the first picture after the release, and the quiet
+  // one.
+  group.functions.push_back({"full quality after it at " + size,
+                             [=] {
+                               const Release& made = *released();
+                               const std::jthread first([&] { KeepAlive(made.Beside()); });
+                               KeepAlive(made.Quiet());
+                             },
+                             {}});
   group.functions.push_back(
-      {"full quality after it at " + size, [=] { KeepAlive(released()->Quiet()); }, {}});
+      {"the same alone at " + size, [=] { KeepAlive(released()->Quiet()); }, {}});
   group.functions.push_back(
       {"rectangle that differs between two maps",
        [=] { KeepAlive(DifferenceOf(drawn().before.relief, drawn().after.relief)); },
