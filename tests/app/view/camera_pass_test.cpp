@@ -329,6 +329,22 @@ TEST_F(CameraPassView, GrainOverFootageIsHalf) {
   EXPECT_NEAR(filmed, computed / 2, 1);
 }
 
+TEST_F(CameraPassView, SharpeningOverFootageIsATenthMore) {
+  const ColourImage halves = Halves(1024, 1024, 512);
+  const auto drawn = [&](const char* footage, double sharpening) {
+    LensCamera camera = kNothing;
+    camera.sharpening = sharpening;
+    const Picture picture = Forward(halves, camera);
+    Backdrop backdrop = PlainBackdrop(1024, 1024);
+    backdrop.footage = footage;
+    view_->SetBackdrop(halves, {}, backdrop);
+    return Drawn(picture).rgb;
+  };
+  const auto filmed = drawn("footage.json", 2);
+  EXPECT_EQ(filmed, drawn("", 2.2));
+  EXPECT_NE(filmed, drawn("", 2));
+}
+
 // The live picture has one ray per pixel. Its edges are held against 16 rays per pixel.
 TEST_F(CameraPassView, StairsOfModelsAreSmoothed) {
   const LoadedScene loaded = MakeViewScene();
