@@ -15,6 +15,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
+#include "simulation/core/folders/leftovers.h"
 #include "simulation/scene/files/archive_io.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
@@ -69,6 +70,9 @@ void HoldScene(EditorState& state) {
   state.lock = SceneLock(place);
   if (!state.lock.other().empty())
     state.dialogs.push_back(OpenElsewhereDialog{place, state.lock.other()});
+  // A session that was killed while it saved left an unfinished file.
+  else if (state.lock.is_held())
+    RemoveLeftovers(IsArchive(place) ? place.parent_path() : place);
 }
 
 void EditCopy(EditorState& state) {

@@ -28,7 +28,8 @@ SceneOnDisk NoteOnDisk(const std::filesystem::path& scene);
 // The scene as a document to edit. One of the program's own resources, such as the demo, has no
 // folder: saving it asks where. Throws Error as authoring::OpenDocument.
 authoring::Document OpenSceneDocument(const std::filesystem::path& scene);
-// Marks the document's scene as the one that is edited here. Tells where another window has it.
+// Marks the document's scene as the one that is edited here, and removes the unfinished files of a
+// session that was killed. Tells where another window has it.
 void HoldScene(EditorState& state);
 // The document without its place: saving it asks where.
 void EditCopy(EditorState& state);

@@ -1,4 +1,5 @@
 // Long sessions of random commands: undo, redo and undo again give the same scenes, byte by byte.
+#include <chrono>
 #include <fstream>
 #include <random>
 #include <set>
@@ -249,6 +250,21 @@ TEST_F(UndoSession, ASceneThatAnotherWindowHasIsTold) {
   StartDocument(second, authoring::OpenDocument(temp / "knee"), true);
   EXPECT_TRUE(second.dialogs.empty());
   EXPECT_TRUE(second.lock.is_held());
+}
+
+// 2147480000 is above every number that a process can have.
+TEST_F(UndoSession, UnfinishedFilesOfASessionThatWasKilledGoWhenTheSceneIsOpened) {
+  const fs::path old_file = temp / "knee/..scene.backup-1.2147480000.partial.json",
+                 new_file = temp / "knee/.scene.2147480000.partial.json";
+  for (const fs::path& file : {old_file, new_file}) std::ofstream(file) << "{";
+  fs::last_write_time(old_file, fs::file_time_type::clock::now() - std::chrono::minutes(5));
+  EditorState second = MakeEditorState(NewDocument());
+  StartDocument(second, authoring::OpenDocument(temp / "knee"), true);
+  EXPECT_TRUE(fs::exists(old_file)) << "another window may be writing";
+  StartDocument(state, NewDocument(), true);
+  StartDocument(second, authoring::OpenDocument(temp / "knee"), true);
+  EXPECT_FALSE(fs::exists(old_file));
+  EXPECT_TRUE(fs::exists(new_file)) << "a process of another machine may be writing";
 }
 
 TEST_F(UndoSession, AFolderThatCannotBeWrittenIsOpenedWithoutAMark) {
