@@ -47,6 +47,8 @@ void WriteEdits(const fs::path& script, const fs::path& shots) {
                        (shots / ShotName(k)).string());
     if (k % 12 == 0) out << "key ctrl+s\nwait job\n";
   }
+  // The end of a script is an end that was asked for, which keeps no copy of unsaved edits.
+  out << "wait frames 1000000\n";
 }
 
 // The newest edit that a scene holds.
@@ -121,6 +123,8 @@ ChildRun WindowTrials::Disturb(const Window& window, Disturbance& disturbance, T
   LookAtRun(run, disturbance, trial);
   if (!disturbance.is_done)
     trial.complaints.push_back(fmt::format("ended by itself, exit code {}", run.exit_code));
+  else if (disturbance.signal == 0 && run.exit_code == 0)
+    trial.complaints.push_back("ended as if nothing had happened, before the trial was over");
   page_->wall_clock_offset = 0;
   page_->is_arm_pulled = 0;
   return run;
@@ -141,7 +145,11 @@ Trial WindowTrials::Edit(Fault fault, double moment, double strength) {
   disturbance.fault = fault;
   disturbance.strength = strength;
   disturbance.disk = disk ? &*disk : nullptr;
-  Window window{{"edit", "../out/scene", "--script", "edits.script"}, {}, false};
+  // A script has no recovery copy unless its place is named.
+  Window window{
+      {"edit", "../out/scene", "--script", "edits.script", "--recovery", Copies().string()},
+      {},
+      false};
   // A fifth of the moments falls into the start of the window.
   const bool is_at_start = moment < 0.2;
   trial.at = disturbance.at = is_at_start ? 10 * moment : kSession * moment;
@@ -163,8 +171,7 @@ void WindowTrials::LookAtEdits(const Disturbance& disturbance, Trial& trial) con
     }
   };
   look(samples_.out() / kScene, "the saved scene: ");
-  for (app::RecoverySession& session :
-       app::RecoverySession::Left(state_ / "arthroscene/recovery")) {
+  for (app::RecoverySession& session : app::RecoverySession::Left(Copies())) {
     if (const auto note = session.ReadNote(); !note.problem.empty())
       trial.complaints.push_back("the recovery copy: " + note.problem);
     look(session.copy(), "the recovery copy: ");

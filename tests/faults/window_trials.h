@@ -33,6 +33,8 @@ class WindowTrials {
     std::function<bool()> begins;
     bool has_arm = false;
   };
+  // Folder of the recovery copies.
+  std::filesystem::path Copies() const { return state_ / "recovery"; }
   ChildCommand CommandOf(const std::vector<std::string>& arguments,
                          const std::string& display) const;
   ChildRun Disturb(const Window& window, Disturbance& disturbance, Trial& trial) const;
