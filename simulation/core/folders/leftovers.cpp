@@ -65,7 +65,7 @@ void Remove(const fs::path& folder, const ProcessOf& process_of, bool folders_on
             std::chrono::seconds least_age) noexcept {
   try {
     const std::time_t now = std::time(nullptr);
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder)) {
       const std::optional<pid_t> process = process_of(entry.path().filename().string());
       if (!process || !IsDead(*process)) continue;
       struct stat found {};

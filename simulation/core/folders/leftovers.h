@@ -13,7 +13,8 @@ namespace arthro {
 // changed lately is left alone.
 constexpr std::chrono::seconds kLeastLeftoverAge{60};
 
-// Removes unfinished results directly in `folder`. Throws nothing: what cannot be removed stays.
+// Removes unfinished results directly in `folder`; empty: the current one, as the parent of a plain
+// file name is. Throws nothing: what cannot be removed stays.
 void RemoveLeftovers(const std::filesystem::path& folder,
                      std::chrono::seconds least_age = kLeastLeftoverAge) noexcept;
 

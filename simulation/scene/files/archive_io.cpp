@@ -239,7 +239,7 @@ void PackScene(const fs::path& scene, const fs::path& archive) {
           archive);
     static_cast<void>(zip.release());  // closing has freed it
   });
-  RemoveLeftovers(archive.has_parent_path() ? archive.parent_path() : ".");
+  RemoveLeftovers(archive.parent_path());
 }
 
 void UnpackScene(const fs::path& archive, const fs::path& folder, const ArchiveLimits& limits) {

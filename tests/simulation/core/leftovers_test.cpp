@@ -53,6 +53,16 @@ TEST(Leftovers, UnfinishedFilesAndFoldersOfADeadProcessAreRemoved) {
   EXPECT_FALSE(fs::exists(filled));
 }
 
+TEST(Leftovers, TheParentOfAPlainFileNameIsTheCurrentFolder) {
+  const test::TempFolder folder;
+  const fs::path file = OldFile(folder / fmt::format(".a.{}.partial.arthro", DeadProcess()));
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  RemoveLeftovers(fs::path("a.arthro").parent_path());
+  fs::current_path(before);
+  EXPECT_FALSE(fs::exists(file));
+}
+
 TEST(Leftovers, NothingElseIsRemoved) {
   const test::TempFolder folder, elsewhere;
   const pid_t dead = DeadProcess();
