@@ -4,6 +4,7 @@
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/portals/reach_board.h"
+#include "app/view/backdrop/relief_filling.h"
 #include "app/view/exposure/footage_light.h"
 #include "simulation/scene/shrunk_projection.h"
 
@@ -77,7 +78,10 @@ bool ShownBackdrop::Take(const EditorState& state, ArthroscopicView& scope, Over
   const Backdrop drawn = Drawn(wanted);
   // The panorama is by far the most to upload; a slider changes only its place or the relief.
   const bool has_same_relief = wanted.HasReliefOf(shown_);
-  const bool has_same_panorama = wanted.panorama && wanted.panorama == shown_.panorama;
+  const bool has_same_panorama =
+      wanted.panorama && wanted.panorama == shown_.panorama &&
+      (has_same_relief ||
+       !FillsOthers(*wanted.panorama, OrEmpty(shown_.depth), OrEmpty(wanted.depth)));
   const bool keeps_panorama =
       has_same_panorama &&
       ((has_same_relief && wanted.HasPlaceOf(shown_)) || scope.SetGeometry(drawn));

@@ -16,6 +16,7 @@
 #include <vtk_glew.h>
 
 #include "app/view/backdrop/colour_outlines.h"
+#include "app/view/backdrop/relief_filling.h"
 #include "app/view/drawing/passes/shader_text.h"
 #include "app/view/exposure/automatic_gain.h"
 #include "simulation/core/units.h"
@@ -92,7 +93,9 @@ std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImag
   const bool is_relit = backdrop.relight > 0;
   if (is_relit) EvenLight(grid_, backdrop.relight);
   light_ = MeasureLight(grid_);
-  ColourImage whole = is_relit ? Evened(panorama, grid_) : panorama;
+  ColourImage whole = panorama;
+  FillUnimaged(whole, depth);
+  if (is_relit) whole = Evened(whole, grid_);
   GLint max_size = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size);
   reduction_ = TextureReduction(panorama.width, panorama.height, max_size);
@@ -300,6 +303,7 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   SetUniform(program, "given_scale", scale);
   SetUniform(program, "given_texels", texels);
   SetUniform(program, "given_reliefTexels", glm::dvec2(relief_->GetWidth(), relief_->GetHeight()));
+  SetUniform(program, "given_endTexels", kEndShare * std::max(texels.x, texels.y));
   SetUniform(program, "given_samples", double(picture_.samples));
   SetUniform(program, "given_radius", backdrop_.radius);
   SetUniform(program, "given_perRadius", 1.0 / backdrop_.radius);

@@ -12,19 +12,24 @@
 namespace arthro::app {
 namespace {
 
-// Width of the soft border, as a share of the panorama's longer edge.
+// Width of the soft border on its inner side, as a share of the panorama's longer edge.
 constexpr double kSoftEnd = 1.0 / 40.0;
 // Longer edge of the mask, px: fine enough for a soft border of 13 px.
 constexpr int kMaskSide = 512, kLeastMaskSide = 40;
 
-// Blurs one line in place by a running sum. Beyond the ends it is periodic or 0.
-void BlurLine(float* line, int count, int stride, int radius, bool periodic,
+// Values beyond the ends of a line.
+enum class Beyond { kPeriodic, kZero, kLast };
+
+// Blurs one line in place by a running sum.
+void BlurLine(float* line, int count, int stride, int radius, Beyond beyond,
               std::vector<float>& copy) {
   copy.resize(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     copy[static_cast<std::size_t>(i)] = line[static_cast<std::ptrdiff_t>(i) * stride];
   const auto at = [&](int i) {
-    if (periodic) return copy[static_cast<std::size_t>((i % count + count) % count)];
+    if (beyond == Beyond::kPeriodic)
+      return copy[static_cast<std::size_t>((i % count + count) % count)];
+    if (beyond == Beyond::kLast) return copy[static_cast<std::size_t>(std::clamp(i, 0, count - 1))];
     return i < 0 || i >= count ? 0.0f : copy[static_cast<std::size_t>(i)];
   };
   double sum = 0;
@@ -35,29 +40,31 @@ void BlurLine(float* line, int count, int stride, int radius, bool periodic,
   }
 }
 
-// Blurs `channels` interleaved planes in place by two means of lines in each direction, of the
-// standard deviation `deviation` in all.
-void BlurPlanes(std::vector<float>& planes, int width, int height, int channels, double deviation,
-                bool periodic) {
-  // A mean over 2 r + 1 values has the variance ((2 r + 1)² − 1) / 12.
-  const int radius =
-      static_cast<int>(std::lround(0.5 * (std::sqrt(1 + 6 * deviation * deviation) - 1)));
-  if (radius <= 0) return;
+// Blurs `channels` interleaved planes in place by two means over 2 radius + 1 values in each
+// direction. A whole turn is periodic along its rows.
+void BlurTwice(std::vector<float>& planes, int width, int height, int channels, int radius,
+               bool whole_turn, Beyond beyond) {
   std::vector<float> copy;
   for (int pass = 0; pass < 2; ++pass)
     for (int c = 0; c < channels; ++c) {
       for (int y = 0; y < height; ++y)
         BlurLine(&planes[static_cast<std::size_t>(y) * static_cast<std::size_t>(width * channels) +
                          static_cast<std::size_t>(c)],
-                 width, channels, radius, periodic, copy);
+                 width, channels, radius, whole_turn ? Beyond::kPeriodic : beyond, copy);
       for (int x = 0; x < width; ++x)
         BlurLine(&planes[static_cast<std::size_t>(x) * static_cast<std::size_t>(channels) +
                          static_cast<std::size_t>(c)],
-                 height, width * channels, radius, false, copy);
+                 height, width * channels, radius, beyond, copy);
     }
 }
 
-// Coarser than the panorama, because it is smooth.
+// Radius of BlurTwice that has a standard deviation in all: a mean over 2 r + 1 values has the
+// variance ((2 r + 1)² − 1) / 12.
+int BlurRadius(double deviation) {
+  return static_cast<int>(std::lround(0.5 * (std::sqrt(1 + 6 * deviation * deviation) - 1)));
+}
+
+// Weight of the imaged part, as in ReliefTexture. Coarser than the panorama, because it is smooth.
 struct ImagedMask {
   int width = 0, height = 0;
   std::vector<float> share;
@@ -80,17 +87,14 @@ ImagedMask MakeImagedMask(int width, int height, const DepthMap& depth, bool who
           share[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width) +
                 static_cast<std::size_t>(x)] = 0.0f;
       }
-  const int radius =
-      std::max(1, static_cast<int>(std::max(mask.width, mask.height) * kSoftEnd / 2));
-  std::vector<float> copy;
-  for (int pass = 0; pass < 2; ++pass) {
-    for (int y = 0; y < mask.height; ++y)
-      BlurLine(&share[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width)],
-               mask.width, 1, radius, whole_turn, copy);
-    for (int x = 0; x < mask.width; ++x)
-      BlurLine(&share[static_cast<std::size_t>(x)], mask.height, mask.width, radius, false, copy);
-  }
-  for (float& value : share) value = std::clamp(2 * value - 1, 0.0f, 1.0f);
+  const auto radius = [&](double width_share) {
+    return std::max(1, static_cast<int>(std::max(mask.width, mask.height) * width_share / 2));
+  };
+  std::vector<float> wide = share;
+  BlurTwice(share, mask.width, mask.height, 1, radius(kSoftEnd), whole_turn, Beyond::kLast);
+  BlurTwice(wide, mask.width, mask.height, 1, radius(kEndShare), whole_turn, Beyond::kLast);
+  for (std::size_t i = 0; i < share.size(); ++i)
+    share[i] = std::clamp(2 * share[i] - 1, 0.0f, 1.0f) + std::clamp(2 * wide[i] - 1, -1.0f, 0.0f);
   mask.share = std::move(share);
   return mask;
 }
@@ -345,7 +349,8 @@ BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn, double
         if (u * u + v * v > kSteep * kSteep) has_step[of(x / block, y / block) / 3] = 1;
       }
   });
-  BlurPlanes(sums, broad.width, broad.height, 3, blur / block, whole_turn);
+  if (const int radius = BlurRadius(blur / block); radius > 0)
+    BlurTwice(sums, broad.width, broad.height, 3, radius, whole_turn, Beyond::kZero);
   broad.slopes.resize(sums.size());
   for (int y = 0; y < broad.height; ++y)
     for (int x = 0; x < broad.width; ++x) {

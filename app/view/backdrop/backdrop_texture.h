@@ -23,11 +23,14 @@ ColourImage ReducedPanorama(const ColourImage& panorama, int reduction);
 // Relief over the same part of the sphere as the panorama. Its longer side has at most kReliefSide
 // texels: a wide view of 1024 px shows no more. Edges stay edges.
 inline constexpr int kReliefSide = 2048;
+// Width of the band outside of the imaged part in which the picture fades, as a share of the
+// panorama's longer edge.
+inline constexpr double kEndShare = 1.0 / 12.0;
 struct ReliefTexture {
   int width = 0, height = 0;
   // Four values per texel: relief, m, continued where it is unknown; its slopes along u and v, m
-  // per texture width and height; and a weight, 1 well inside the imaged part, which falls to 0 at
-  // its edge, on the inner side.
+  // per texture width and height; and a weight, 1 well inside the imaged part, 0 at its edge, -1
+  // well outside of it. The edge of the panorama is none: it is 1 there.
   std::vector<float> texels;
 };
 // Values of a depth map at the texels of its relief; those of a large map are some of its pixels.

@@ -3,10 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace arthro::app {
 namespace {
+
+// Largest channel of a pixel that was not imaged: black, up to the errors of JPEG.
+constexpr std::uint8_t kUnimaged = 16;
+
+bool IsFilled(const ColourImage& panorama, const DepthMap& depth, std::size_t pixel) {
+  const std::uint8_t* rgb = &panorama.rgb[3 * pixel];
+  return std::isnan(depth.relief[pixel]) && rgb[0] <= kUnimaged && rgb[1] <= kUnimaged &&
+         rgb[2] <= kUnimaged;
+}
+
+bool IsOf(const DepthMap& depth, const ColourImage& panorama) {
+  return !depth.empty() && depth.width == panorama.width && depth.height == panorama.height;
+}
 
 // Means of the known values of 2 x 2 texels; NaN where there is none.
 DepthMap Halved(const DepthMap& relief) {
@@ -52,6 +67,46 @@ void FillUnknown(DepthMap& relief) {
   for (int y = 0; y < relief.height; ++y)
     for (int x = 0; x < relief.width; ++x)
       if (!std::isfinite(relief.at(x, y))) relief.at(x, y) = Between(coarse, x, y);
+}
+
+void FillUnimaged(ColourImage& panorama, const DepthMap& depth) {
+  if (!IsOf(depth, panorama)) return;
+  std::vector<std::uint8_t> is_filled(depth.relief.size());
+  for (std::size_t i = 0; i < is_filled.size(); ++i)
+    is_filled[i] = IsFilled(panorama, depth, i) ? 1 : 0;
+  if (std::find(is_filled.begin(), is_filled.end(), 1) == is_filled.end()) return;
+  // One channel after the other, from half the size on: a third of the memory.
+  for (std::size_t c = 0; c < 3; ++c) {
+    DepthMap half((panorama.width + 1) / 2, (panorama.height + 1) / 2);
+    const auto pixel = [&](int x, int y) {
+      return static_cast<std::size_t>(y) * static_cast<std::size_t>(panorama.width) +
+             static_cast<std::size_t>(x);
+    };
+    for (int y = 0; y < half.height; ++y)
+      for (int x = 0; x < half.width; ++x) {
+        int sum = 0, known = 0;
+        for (int v = 2 * y; v < std::min(2 * y + 2, panorama.height); ++v)
+          for (int u = 2 * x; u < std::min(2 * x + 2, panorama.width); ++u)
+            if (is_filled[pixel(u, v)] == 0) sum += panorama.rgb[3 * pixel(u, v) + c], ++known;
+        half.at(x, y) = known > 0 ? static_cast<float>(sum) / static_cast<float>(known)
+                                  : std::numeric_limits<float>::quiet_NaN();
+      }
+    FillUnknown(half);
+    for (int y = 0; y < panorama.height; ++y)
+      for (int x = 0; x < panorama.width; ++x)
+        if (is_filled[pixel(x, y)] != 0)
+          panorama.rgb[3 * pixel(x, y) + c] =
+              static_cast<std::uint8_t>(std::lround(Between(half, x, y)));
+  }
+}
+
+bool FillsOthers(const ColourImage& panorama, const DepthMap& before, const DepthMap& after) {
+  const bool was_of = IsOf(before, panorama), is_of = IsOf(after, panorama);
+  if (!was_of && !is_of) return false;
+  for (std::size_t i = 0; i < panorama.rgb.size() / 3; ++i)
+    if ((was_of && IsFilled(panorama, before, i)) != (is_of && IsFilled(panorama, after, i)))
+      return true;
+  return false;
 }
 
 }  // namespace arthro::app

@@ -15,6 +15,9 @@
 
 // Linear colour where nothing was imaged: neutral and dark, brighter than the black surround.
 const vec3 endColour = vec3(0.105, 0.102, 0.1);
+// Beyond the imaged part the last colours go on, ever more blurred, and fade into it.
+const float kEndBlur = 1.0;      // texels per texel beyond the edge
+const float kWholeColour = 0.8;  // weight of the imaged part from which colours have not faded
 
 // Refinement by the slope after a search by cells.
 const float kLeastDescent = 0.05;    // cosine between ray and surface normal
@@ -96,6 +99,18 @@ void main() {
   vec2 dx = vec2(dot(alongU, acrossX), dot(alongV, acrossX)),
        dy = vec2(dot(alongU, acrossY), dot(alongV, acrossY));
 
+#ifndef PLAIN
+  float beyond = length(beyondEdge(uv) * texels) / endTexels;
+  float end = isBefore(x) ? clamp(ground.a - 2.0 * beyond, -1.0, 1.0) : -1.0;
+  // Slopes end sooner than colours: those along the edge would grow towards a pole.
+  float slopes = isBefore(x) ? clamp(1.0 - 2.0 * beyond + min(ground.a, 0.0), 0.0, 1.0) : 0.0;
+  // The same angle in all directions: a turn about a pole has ever fewer places.
+  vec2 blur = kEndBlur * endTexels * clamp(max(beyond, -ground.a), 0.0, 1.0) * length(x) *
+              vec2(length(alongU), length(alongV)) / abs(scale);
+  blur = min(blur, texels);
+#else
+  vec2 blur = vec2(0.0);
+#endif
 #ifdef RELIT
   vec3 broad = textureLod(broadSlopes, uv, 0.0).rgb * vec3(perRadius, perRadius, 1.0);
 #endif
@@ -110,7 +125,7 @@ void main() {
       perRadius * vec3(textureLod(relief, uv + up, 0.0).r, textureLod(relief, uv - up, 0.0).r,
                        textureLod(relief, uv + 2.0 * up, 0.0).r);
 #endif
-  float steep = imaged ? length(ground.g * alongU + ground.b * alongV) : 0.0;
+  float steep = slopes * length(ground.g * alongU + ground.b * alongV);
   float side = smoothstep(kSide, kFullSide, steep);
   float down = (looks.x - here) / max(looks.x - looks.y, 1e-6);
   float way = max(length(up / vec2(length(alongU), length(alongV))), 1e-6);
@@ -128,8 +143,7 @@ void main() {
   // texels are at the right place. They are blurred there all the same: a texel across the edge
   // would be a stripe down the side.
   side *= 1.0 - foot;
-  dx += side * kSideBlur / texels * vec2(1.0, 0.0);
-  dy += side * kSideBlur / texels * vec2(0.0, 1.0);
+  blur += side * kSideBlur;
   side *= mix(1.0, below, step(kNoisySide, radius * leastSide));
   vec2 shift = kSideShift / kLookTexels * reliefTexels / texels * up;
   vec2 edgePlace = uv + kEdgeShare * shift;
@@ -139,8 +153,8 @@ void main() {
   vec2 edgePlace = uv;
 #endif
   vec3 edge;
-  vec3 colour = panoramaColour(uv, dx * texels, dy * texels, side, edgePlace, kEdgeLevel, edge);
-  colour = imaged ? colour : vec3(0.0);
+  vec3 colour =
+      panoramaColour(uv, dx * texels, dy * texels, blur, side, edgePlace, kEdgeLevel, edge);
 #if defined(RELIEF) && !defined(PLAIN)
   colour *= mix(1.0, min(dot(edge, kLuma) / max(dot(colour, kLuma), kLeastLuma), 1.0), side);
 #endif
@@ -155,7 +169,7 @@ void main() {
   float stored = storedDepth(distance);
 
 #ifdef PLAIN
-  vec3 shown = imaged ? colour : vec3(0.0);
+  vec3 shown = imaged && ground.a > 0.0 ? colour : vec3(0.0);
 #else
   // The panorama holds the light of its footage: far parts are darkened, none is brightened again.
   // Squares and square roots approximate sRGB and its inverse.
@@ -169,7 +183,7 @@ void main() {
 #ifdef RELIT
   // Diffuse shading by low-pass filtered normals, and a film of fluid over them.
   vec3 normal =
-      -normalize(normalize(x) + (imaged ? broad.x * alongU + broad.y * alongV : vec3(0.0)));
+      -normalize(normalize(x) + slopes * (broad.x * alongU + broad.y * alongV));
   vec3 toLamp = normalize(tip + perRadius * (lampPlace.x * rightAxis + lampPlace.y * upAxis) - x);
   float faces = mix(max(dot(normal, toLamp), 0.0), kWallFacing, wall),
         shine = max(dot(normal, normalize(toLamp - ray)), 0.0);
@@ -189,7 +203,7 @@ void main() {
 #else
   vec3 lit = shoulder(colour * sqrt(light));
 #endif
-  vec3 shown = mix(endColour, lit, imaged ? smoothstep(0.0, 1.0, ground.a) : 0.0) * softRim(r);
+  vec3 shown = mix(endColour, lit, smoothstep(-1.0, kWholeColour, end)) * softRim(r);
   float along = dot(offset, notch) - kMarkTip;
   float beside = abs(offset.x * notch.y - offset.y * notch.x);
   float mark = clamp((kMarkSlope * along - beside) * kMarkEdge * windowRadius + 0.5, 0.0, 1.0);

@@ -2,7 +2,7 @@
 // in radii of the sphere around the portal unless a unit is given.
 #include "distance.glsl"
 uniform sampler2D panorama;
-uniform sampler2D relief;          // m; its slopes along u and v; weight of the imaged part
+uniform sampler2D relief;          // m; its slopes along u and v; weight of the imaged part, -1 to 1
 uniform sampler2D reliefCeiling;   // m, maximum of each block of blockTexels x blockTexels
 uniform sampler2D broadSlopes;     // m along u and v, low-pass filtered; 1, or 0 near steps
 uniform sampler2D corners, cells;  // relief_cells.h
@@ -13,6 +13,7 @@ steady float lensScale;            // sin(fov/4)
 steady float windowRadius;         // px
 steady vec2 centre, scale;         // projection, texture units
 steady vec2 texels, reliefTexels;
+steady float endTexels;            // texels of the panorama beyond its edge in which it fades
 
 steady float samples;              // at most, per pixel
 steady float radius, perRadius;    // m, 1/m

@@ -32,3 +32,11 @@ bool isImaged(vec3 d, vec2 uv) {
   return isBefore(d) && abs(uv.x - 0.5) <= 0.5 && abs(uv.y - 0.5) <= 0.5;
 #endif
 }
+// Returns how far a place is beyond the edge of the panorama, texture units.
+vec2 beyondEdge(vec2 uv) {
+  vec2 beyond = max(abs(uv - 0.5) - 0.5, 0.0);
+#ifdef WRAPS
+  beyond.x = 0.0;
+#endif
+  return beyond;
+}

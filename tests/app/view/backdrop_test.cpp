@@ -260,6 +260,44 @@ TEST_F(BackdropView, UnknownReliefIsDrawnAsTheBareSphereInTheBorderColour) {
   }
 }
 
+// Last colours go on beyond the imaged part and fade into the colour of the border: no black bay,
+// no edge. Both for the edge of the panorama and for a black part of unknown depth within it.
+TEST_F(BackdropView, BeyondTheImagedPartItsColoursFadeIntoTheBorderColour) {
+  constexpr int kSize = 401, kMiddle = kSize / 2;
+  for (const bool is_within : {false, true}) {
+    LoadedScene loaded = MakeViewScene();
+    ColourImage panorama(1024, 768);
+    DepthMap depth(1024, 768, 0.004f);
+    for (int y = 0; y < panorama.height; ++y)
+      for (int x = 0; x < panorama.width; ++x) {
+        const bool is_imaged = !is_within || x < 512;
+        if (!is_imaged) depth.at(x, y) = NAN;
+        const std::uint8_t red[] = {200, 90, 70};
+        for (int c = 0; c < 3; ++c) panorama.at(x, y)[c] = is_imaged ? red[c] : 0;
+      }
+    // The edge of the panorama in the middle of the picture, if not that of the imaged part.
+    if (!is_within) loaded.scene.backdrop.projection.centre_px.x = panorama.width - 1;
+    view_->SetBackdrop(panorama, depth, loaded.scene.backdrop);
+    view_->Render(PictureFromPose({0, 0, 0, 0.001}, 0.0, 2.0), kSize);
+    const ColourImage drawn = view_->ReadPixels();
+    int steepest = 0, rises = 0;
+    for (int x = kMiddle - 60; x < kSize - 30; ++x) {
+      const int change = drawn.at(x + 1, kMiddle)[0] - drawn.at(x, kMiddle)[0];
+      steepest = std::max(steepest, std::abs(change));
+      if (change > 2) ++rises;
+    }
+    const auto red = [&](int x) { return int{drawn.at(x, kMiddle)[0]}; };
+    std::printf("%s: %d inside, %d at the edge, %d beyond, %d far beyond, steepest %d\n",
+                is_within ? "black part" : "edge of the panorama", red(kMiddle - 60), red(kMiddle),
+                red(kMiddle + 15), red(kSize - 30), steepest);
+    EXPECT_GT(red(kMiddle - 60), 120);
+    EXPECT_GT(red(kMiddle + 5), 60);
+    EXPECT_LT(red(kSize - 30), 50);
+    EXPECT_LE(steepest, 20);
+    EXPECT_EQ(rises, 0) << "it only grows darker";
+  }
+}
+
 TEST_F(BackdropView, AReplacedDepthMapIsDrawnLikeAnInitialOne) {
   LoadedScene loaded = MakeViewScene(511, 383);  // row length that is no multiple of 4 bytes
   const Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.2);

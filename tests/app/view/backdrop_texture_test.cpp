@@ -2,9 +2,12 @@
 #include "app/view/backdrop/backdrop_texture.h"
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "app/view/backdrop/relief_filling.h"
 
 namespace arthro::app {
 namespace {
@@ -128,6 +131,92 @@ TEST(BroadSlopes, AreZeroForOneTexelAndWithoutADepthMap) {
   const BroadSlopes bare = MakeBroadSlopes(MakeReliefTexture({64, 48}, {}, false), false);
   for (std::size_t i = 0; i < bare.slopes.size(); ++i)
     EXPECT_EQ(bare.slopes[i], i % 3 == 2 ? 1.0f : 0.0f);
+}
+
+// Weight of the imaged part: at a straight edge 0, inside 1 and outside -1 a band's width away, and
+// 1 up to the edge of the panorama, which is no edge of what was imaged.
+TEST(ReliefTexture, WeighsTheImagedPart) {
+  constexpr int kEdge = kWidth / 2;
+  DepthMap half(kWidth, kHeight, 0.01f);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = kEdge; x < kWidth; ++x) half.at(x, y) = NAN;
+  const ReliefTexture relief = ReliefOf(half);
+  const auto weight = [&](int x, int y) {
+    return relief
+        .texels[4 * (static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)) + 3];
+  };
+  constexpr int kBand = static_cast<int>(kEndShare * kWidth);
+  for (const int y : {0, kHeight / 2, kHeight - 1}) {
+    EXPECT_EQ(weight(0, y), 1.0f) << y;
+    EXPECT_EQ(weight(kEdge - kWidth / 40 - 4, y), 1.0f) << y;
+    EXPECT_NEAR(weight(kEdge, y), 0.0f, 0.1) << y;
+    EXPECT_NEAR(weight(kEdge + kBand / 2, y), -0.75f, 0.1) << y;
+    EXPECT_NEAR(weight(kEdge + kBand + 4, y), -1.0f, 0.02) << y;
+    EXPECT_NEAR(weight(kWidth - 1, y), -1.0f, 1e-5) << y;
+    for (int x = kEdge - kBand; x < kEdge + kBand; ++x)
+      ASSERT_LE(weight(x + 1, y), weight(x, y) + 1e-5f) << x << " " << y;
+  }
+}
+
+ColourImage OneColour(int width, int height, std::uint8_t red, std::uint8_t green) {
+  ColourImage image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) image.at(x, y)[0] = red, image.at(x, y)[1] = green;
+  return image;
+}
+
+// Black pixels of unknown depth take the colour around them. A lighter one of unknown depth was
+// imaged all the same, and a black one of known depth is a dark part of the joint: both stay.
+TEST(FillUnimaged, FillsOnlyBlackPixelsOfUnknownDepth) {
+  constexpr int kSide = 61;  // no power of two
+  ColourImage panorama = OneColour(kSide, kSide, 200, 80);
+  DepthMap depth(kSide, kSide, 0.01f);
+  for (int y = 20; y < kSide; ++y)
+    for (int x = 10; x < 50; ++x) {
+      depth.at(x, y) = NAN;
+      for (int c = 0; c < 3; ++c) panorama.at(x, y)[c] = 7;
+    }
+  panorama.at(30, 40)[0] = 200, panorama.at(30, 40)[1] = 90, panorama.at(30, 40)[2] = 0;
+  panorama.at(5, 5)[0] = panorama.at(5, 5)[1] = 0;
+  FillUnimaged(panorama, depth);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const std::uint8_t* colour = panorama.at(x, y);
+      if ((x == 30 && y == 40) || (x == 5 && y == 5)) continue;
+      // The dark pixel weighs a little in the largest blocks; a pixel amid the hole fills it as
+      // well.
+      EXPECT_NEAR(colour[0], 200, 12) << x << " " << y;
+      EXPECT_GE(colour[1], 74) << x << " " << y;
+      EXPECT_LE(colour[1], 90) << x << " " << y;
+    }
+  EXPECT_EQ(panorama.at(30, 40)[1], 90);
+  EXPECT_EQ(panorama.at(5, 5)[0], 0);
+}
+
+TEST(FillUnimaged, LeavesAPanoramaWithoutItsDepthAndFillsNoneWithBlack) {
+  const ColourImage dark = OneColour(9, 5, 3, 3);
+  ColourImage panorama = dark;
+  FillUnimaged(panorama, {});
+  FillUnimaged(panorama, DepthMap(8, 5, NAN));
+  EXPECT_EQ(panorama.rgb, dark.rgb);
+  FillUnimaged(panorama, DepthMap(9, 5, NAN));
+  EXPECT_EQ(panorama.rgb, ColourImage(9, 5).rgb);
+}
+
+// A stroke of the brush for unknown depth on imaged pixels fills nothing, so that the panorama is
+// not uploaded again.
+TEST(FillsOthers, ComparesBlackPixelsOnly) {
+  ColourImage panorama = OneColour(16, 8, 200, 80);
+  panorama.at(3, 3)[0] = panorama.at(3, 3)[1] = 0;
+  const DepthMap known(16, 8, 0.01f);
+  DepthMap painted = known, hole = known;
+  painted.at(12, 4) = NAN;
+  hole.at(3, 3) = NAN;
+  EXPECT_FALSE(FillsOthers(panorama, known, painted));
+  EXPECT_TRUE(FillsOthers(panorama, known, hole));
+  EXPECT_TRUE(FillsOthers(panorama, {}, hole));
+  EXPECT_FALSE(FillsOthers(panorama, {}, painted));
+  EXPECT_FALSE(FillsOthers(panorama, hole, hole));
 }
 
 }  // namespace

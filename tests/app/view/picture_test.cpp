@@ -55,8 +55,22 @@ struct Disturbed {
 void PrintTo(const Disturbed& disturbed, std::ostream* out) { *out << disturbed.name; }
 class DisturbedPicture : public testing::TestWithParam<Disturbed> {};
 
+// The scene with a chequered panorama: what blurs far parts needs edges there.
+LoadedScene ChequeredScene() {
+  constexpr int kSquare = 48;  // px
+  LoadedScene loaded = MakeViewScene();
+  ColourImage panorama = *loaded.panorama;
+  for (int y = 0; y < panorama.height; ++y)
+    for (int x = 0; x < panorama.width; ++x)
+      if ((x / kSquare + y / kSquare) % 2 == 1)
+        for (int c = 0; c < 3; ++c) panorama.at(x, y)[c] /= 2;
+  loaded.panorama = Share(std::move(panorama));
+  return loaded;
+}
+
 TEST_P(DisturbedPicture, AnotherStrengthIsDetected) {
-  START_OR_SKIP(pictures, MakeViewScene());
+  START_OR_SKIP(pictures, GetParam().strength == &Disturbances::far_blur ? ChequeredScene()
+                                                                         : MakeViewScene());
   Picture picture = ScenePicture();
   // Small enough for all of them.
   picture.instrument->proxy = picture.view.tip + 0.005 * picture.view.view;
