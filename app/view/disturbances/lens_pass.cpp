@@ -122,20 +122,25 @@ void LensPass::TakeMurk(const Frame& frame) {
   const Disturbances& d = frame.disturbances;
   // Dew alone does not move.
   const double time = d.haze > 0 ? d.time : 0.0;
-  if (murk_->GetHandle() == 0 || d.seed != murk_seed_ || time != murk_time_) {
-    std::vector<std::uint8_t> texels = MurkField(d.seed, time);
-    murk_->ReleaseGraphicsResources(frame.window);
+  if (murk_->GetHandle() != 0 && d.seed == murk_seed_ && time == murk_time_)
+    return murk_->Activate();
+  std::vector<std::uint8_t> texels = MurkField(d.seed, time);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  if (murk_->GetHandle() == 0) {
     murk_->SetContext(frame.window);
     murk_->SetMinificationFilter(vtkTextureObject::Linear);
     murk_->SetMagnificationFilter(vtkTextureObject::Linear);
     murk_->SetWrapS(vtkTextureObject::ClampToEdge);
     murk_->SetWrapT(vtkTextureObject::ClampToEdge);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     murk_->Create2DFromRaw(kMurkSize, kMurkSize, 4, VTK_UNSIGNED_CHAR, texels.data());
-    murk_seed_ = d.seed;
-    murk_time_ = time;
+    murk_->Activate();
+  } else {
+    murk_->Activate();
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kMurkSize, kMurkSize, GL_RGBA, GL_UNSIGNED_BYTE,
+                    texels.data());
   }
-  murk_->Activate();
+  murk_seed_ = d.seed;
+  murk_time_ = time;
 }
 
 void LensPass::SetDisturbed(vtkShaderProgram& program, const Frame& frame) const {
