@@ -17,6 +17,8 @@
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
 #include "simulation/core/folders/file_name.h"
+#include "simulation/core/folders/leftovers.h"
+#include "simulation/core/folders/partial_folder.h"
 #include "simulation/core/option_fields.h"
 #include "simulation/scene/backdrop/clean_picture.h"
 #include "simulation/scene/files/archive_io.h"
@@ -388,6 +390,36 @@ class Saving {
   WrittenFiles written_;
 };
 
+// Returns where a new folder of this name will be; nothing where something has the name already,
+// even a link that leads nowhere, or where it cannot be made.
+std::optional<fs::path> PlaceOfNew(const fs::path& folder) {
+  const fs::path plain = folder.has_filename() ? folder : folder.parent_path();
+  std::error_code fault;
+  if (plain.empty() || fs::exists(fs::symlink_status(plain, fault))) return std::nullopt;
+  const fs::path above = fs::canonical(plain.has_parent_path() ? plain.parent_path() : ".", fault);
+  if (fault || !fs::is_directory(above, fault)) return std::nullopt;
+  return above / plain.filename();
+}
+
+// A new folder appears whole or not at all, also where this program is killed meanwhile.
+Document SaveInNewFolder(const Document& document, const fs::path& folder, const fs::path& place,
+                         const SaveOptions& options) {
+  PartialFolder fresh(place);
+  arthro::RemoveLeftovers(fresh.beside().parent_path());
+  try {
+    Document saved = Saving(document, fresh.beside(), folder, options).Run();
+    fresh.PutInPlaceAsNew();
+    saved.folder = folder;
+    for (auto& [name, held] : saved.files) held.file = fs::absolute(folder / name);
+    return saved;
+  } catch (const Error& error) {
+    // Said of the folder that was asked for.
+    const fs::path within = error.file().lexically_relative(fresh.beside());
+    if (within.empty() || *within.begin() == "..") throw;
+    throw Error(error.code(), error.sentence(), within == "." ? folder : folder / within);
+  }
+}
+
 }  // namespace
 
 void PutDocumentKeys(Document& document) {
@@ -424,7 +456,9 @@ std::string DepthFingerprint(const DepthMap& depth) {
 Document SaveDocument(const Document& document, const fs::path& folder,
                       const SaveOptions& options) {
   if (!IsArchive(folder)) {
-    Document saved = Saving(document, folder, folder, options).Run();
+    const std::optional<fs::path> place = PlaceOfNew(folder);
+    Document saved = place ? SaveInNewFolder(document, folder, *place, options)
+                           : Saving(document, folder, folder, options).Run();
     saved.unpacked = nullptr;
     return saved;
   }

@@ -121,6 +121,10 @@ std::vector<FaultedJob> AuthoringJobs() {
        Also(panorama, {"--leave-out", "2"}),
        {"p.png", "p.json"},
        {"panorama", "frames", "-o", "-", "--report", To("p.json")}});
+  add({"panorama with a scene",
+       Also(panorama, {"--scene", To("made")}),
+       {},
+       {"p.png", "p.json", "made/"}});
   add({"phantom",
        {"phantom", "--size", "S", "--footage-frames", "2", "-o", To("knee")},
        {"phantom", "--size", "S", "--footage-frames", "2", "-o", To("knee"), "--seed", "2"},

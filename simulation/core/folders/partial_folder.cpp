@@ -65,4 +65,15 @@ void PartialFolder::PutInPlace() {
   is_in_place_ = true;
 }
 
+void PartialFolder::PutInPlaceAsNew() {
+  std::error_code fault;
+  fs::rename(beside_, Plain(target_), fault);  // refused where something is in a folder there
+  if (fault == std::errc::directory_not_empty || fault == std::errc::file_exists ||
+      fault == std::errc::not_a_directory)
+    throw Error(Code::kFile, "another program has just made this; choose another name", target_);
+  if (fault)
+    throw Error(Code::kFile, "could not be put in place: " + WhyNotWritten(fault.value()), target_);
+  is_in_place_ = true;
+}
+
 }  // namespace arthro

@@ -7,6 +7,10 @@
 
 namespace arthro {
 
+// The absolute name of a folder, without a slash at its end: "out", "out/" and "./out" give the
+// same.
+std::filesystem::path PlainFolder(const std::filesystem::path& folder);
+
 class PartialFolder {
  public:
   // Makes beside(), and the folders above `target` that are missing. What `target` holds stays
@@ -20,6 +24,9 @@ class PartialFolder {
   // Moves what was written into the target; files of the same name there are replaced. Throws
   // Error(kFile).
   void PutInPlace();
+  // The same for a target that is new: one that others have filled meanwhile is not touched. Throws
+  // Error(kFile).
+  void PutInPlaceAsNew();
 
  private:
   std::filesystem::path target_, beside_;

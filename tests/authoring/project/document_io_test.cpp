@@ -301,6 +301,47 @@ TEST(DocumentIo, AFullDiskLeavesTheOldSceneWhole) {
   EXPECT_EQ(ReadScene(folder / "scene").title, "changed") << "with room enough it is saved";
 }
 
+// A new folder is filled under another name: what is said, and what the document holds, is of the
+// one that was asked for.
+TEST(DocumentIo, ANewFolderMayBeNamedInAnyWay) {
+  test::TempFolder folder;
+  const Sources sources(folder.path());
+  const fs::path here = fs::current_path();
+  fs::current_path(folder.path());
+  fs::create_directories("elsewhere/scenes");
+  fs::create_symlink("elsewhere/scenes", "link");
+  for (const char* const name : {"made", "./dotted", "slashed/", "link/../roundabout"}) {
+    const Document saved = SaveDocument(sources.Author(), name);
+    EXPECT_EQ(saved.folder, name);
+    for (const auto& [asset, held] : saved.files) {
+      EXPECT_TRUE(fs::is_regular_file(held.file)) << held.file;
+      EXPECT_TRUE(fs::equivalent(held.file, saved.folder / asset)) << held.file;
+    }
+    const auto before = FilesOf(name);
+    SaveDocument(saved, name);
+    EXPECT_EQ(FilesOf(name), before) << "saved again, no file changes";
+    fs::remove_all(name);
+  }
+  Document bad = sources.Author();
+  bad.depth = std::make_shared<const DepthMap>(DepthMap(3, 3));
+  bad.scene.backdrop.depth = "depth.tiff";
+  try {
+    SaveDocument(bad, "made/");
+    ADD_FAILURE() << "it was saved";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.file(), fs::path("made/depth.tiff"));
+  }
+  fs::create_symlink(folder / "nowhere", "dangling");
+  EXPECT_THROW(SaveDocument(sources.Author(), "dangling"), Error);
+  EXPECT_TRUE(fs::is_symlink("dangling"));
+  EXPECT_FALSE(fs::exists("nowhere"));
+  EXPECT_THROW(SaveDocument(sources.Author(), "no/../made"), Error);
+  EXPECT_THROW(SaveDocument(sources.Author(), ""), Error);
+  fs::current_path(here);
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.path()))
+    EXPECT_EQ(entry.path().filename().string().find(".partial"), std::string::npos) << entry.path();
+}
+
 TEST(DocumentIo, SaysInOneSentenceWhyItCannotSave) {
   test::TempFolder folder;
   const Sources sources(folder.path());

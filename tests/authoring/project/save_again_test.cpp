@@ -13,6 +13,7 @@
 #include "authoring/project/history.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/folders/leftovers.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/mesh/mesh_io.h"
@@ -227,6 +228,41 @@ TEST(SaveAgain, AKilledSaveLeavesASceneThatOpensAndNoFileForGood) {
   EXPECT_EQ(names, (std::set<std::string>{"scene.json", "panorama.png",
                                           last.scene.backdrop.depth.string()}));
   EXPECT_FALSE(HasUnfinishedSave(scene));
+}
+
+// The saving process is killed at a random moment while it makes a new folder: there is a whole
+// scene or none, and the next save removes what was begun.
+TEST(SaveAgain, AKilledFirstSaveLeavesAWholeSceneOrNone) {
+  test::TempFolder folder;
+  const Document document = WithDepth(NewScene(folder.path()), 1e-4f);
+  const fs::path scenes = folder / "scenes";
+  fs::create_directory(scenes);
+  constexpr unsigned kSeed = 11;
+  std::mt19937 random(kSeed);
+  int whole = 0, none = 0;
+  for (int i = 0; i < 40; ++i) {
+    const fs::path scene = scenes / std::to_string(i);
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      SaveDocument(document, scene);
+      for (;;) pause();
+    }
+    usleep(static_cast<useconds_t>(random() % 40000));
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    ++(fs::exists(scene) ? whole : none);
+    if (fs::exists(scene)) {
+      EXPECT_EQ(NamesIn(scene), (std::set<std::string>{"scene.json", "panorama.png", "depth.tiff"}))
+          << "kill " << i << ", seed " << kSeed;
+      EXPECT_TRUE(LoadScene(scene).depth);
+    }
+  }
+  EXPECT_EQ(whole + none, 40);
+  arthro::RemoveLeftovers(scenes, std::chrono::seconds(0));
+  for (const std::string& name : NamesIn(scenes)) EXPECT_FALSE(name.starts_with(".")) << name;
 }
 
 }  // namespace

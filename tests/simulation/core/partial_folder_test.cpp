@@ -1,5 +1,7 @@
 #include "simulation/core/folders/partial_folder.h"
 
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include "simulation/core/atomic_file.h"
@@ -53,6 +55,29 @@ TEST(PartialFolder, LeavesNothingWhereItIsDropped) {
   }
   EXPECT_EQ(ReadWholeFile(folder / "frames/0.png"), "old");
   EXPECT_EQ(EntriesOf(folder / "frames"), 1);
+}
+
+TEST(PartialFolder, AsNewTouchesNothingThatOthersMadeMeanwhile) {
+  const test::TempFolder folder;
+  PartialFolder late(folder / "frames/");
+  WriteAtomically(late.beside() / "0.png", "late");
+  fs::create_directory(folder / "frames");
+  WriteAtomically(folder / "frames/0.png", "first");
+  try {
+    late.PutInPlaceAsNew();
+    ADD_FAILURE() << "it was put in place";
+  } catch (const Error& error) {
+    EXPECT_NE(error.sentence().find("another program has just made this"), std::string::npos);
+  }
+  EXPECT_EQ(ReadWholeFile(folder / "frames/0.png"), "first");
+  fs::remove_all(folder / "frames");
+  std::ofstream(folder / "frames") << "a file";
+  EXPECT_THROW(late.PutInPlaceAsNew(), Error);
+  EXPECT_EQ(ReadWholeFile(folder / "frames"), "a file");
+  fs::remove(folder / "frames");
+  late.PutInPlaceAsNew();
+  EXPECT_EQ(ReadWholeFile(folder / "frames/0.png"), "late");
+  EXPECT_EQ(EntriesOf(folder.path()), 1);
 }
 
 TEST(PartialFolder, AFileInItsPlaceIsRefused) {
