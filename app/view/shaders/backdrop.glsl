@@ -28,6 +28,10 @@ const float kMostFootprint = 4.0;  // times that of a surface that faces the len
 const float kFullSide = 6.0;                 // slope of a certain side
 const float kTopStart = 0.1, kTopEnd = 0.3;  // share of the step below its upper edge
 const float kFoot = 0.95;                    // share of the step from which its foot begins
+// How much steeper a rounded part is than further from its outline by a look: slopes grow as one
+// over the root of the way to the outline, so from the middle of one look to that of the next by
+// root 3.
+const float kRounded = 1.73;
 const float kSideBlur = 12.0;                // texels of the panorama
 const float kSideShift = 14.0;               // texels towards the upper edge
 // A side is no brighter than the surface between it and the place of its colour: at this share of
@@ -136,8 +140,9 @@ void main() {
   side *= isStep;
   float below = smoothstep(kTopStart, kTopEnd, down);
   float foot = step(kFoot, (top - here) / max(top - looks.y, 1e-6));
-  wall = max(side * below,
-             isStep * smoothstep(kSide, kFullSide, (looks.z - looks.x) / way)) *
+  float above = (looks.z - looks.x) / way;
+  above = max(above, min(steep, kRounded * above));
+  wall = max(side * below, isStep * smoothstep(kSide, kFullSide, above)) *
          (1.0 - foot);
   // A noisy relief is footage, whose own blur is wider than the smear: near the upper edge its
   // texels are at the right place. They are blurred there all the same: a texel across the edge

@@ -150,6 +150,29 @@ TEST_F(DrawnRelief, TheThinCrestOfTheDemoIsClosed) {
   EXPECT_LT(share, 0.0006);
 }
 
+// The condyle of the demo from beneath, rounded and steep up to its outline, whose texels are some
+// 15 px wide: its light has no line across. Columns of 9 px, each line beside the next but one.
+TEST_F(DrawnRelief, ARoundedPartHasNoLineOfItsTexels) {
+  app::StillPictures pictures(
+      LoadScene(std::filesystem::path(ARTHRO_SOURCE_DIR) / "resources" / "demo"));
+  const double degree = std::numbers::pi / 180;
+  picture_ = PictureFromPose(pictures.Hold({-25 * degree, 12 * degree, 0, 0.024}), 30 * degree,
+                             90 * degree);
+  picture_.relief = kUsualRelief;
+  const ColourImage drawn = pictures.Draw(picture_, 1024);
+  double worst = 0;
+  for (int left = 300; left < 700; left += 9) {
+    const auto level = [&](int y) {
+      double sum = 0;
+      for (int x = left; x < left + 9; ++x) sum += drawn.at(x, y)[1];
+      return sum / 9;
+    };
+    for (int y = 60; y < 140; ++y) worst = std::max(worst, std::abs(level(y + 2) - level(y)));
+  }
+  std::printf("steepest change of the light: %.2f levels in 2 px\n", worst);
+  EXPECT_LT(worst, 1.5) << "a level is a rounding";
+}
+
 // Noise of 0.45 mm over 3 texels, as a depth map from the brightness of footage has it, on a level
 // relief: with its error known, a lamp of 60 % draws no worms and the picture has no sides of
 // steps. Without it, a twentieth of what the lamp lights is off its surroundings.
