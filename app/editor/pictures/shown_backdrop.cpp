@@ -74,7 +74,7 @@ bool ShownBackdrop::TakeRelief(const Content& wanted, const Backdrop& drawn) {
 
 bool ShownBackdrop::Take(const EditorState& state, ArthroscopicView& scope, Overview& overview) {
   const Content wanted = ContentOf(state);
-  if (wanted == shown_) return TakeQuietRelief(scope);
+  if (wanted == shown_) return TakeQuietRelief(scope, overview);
   const Backdrop drawn = Drawn(wanted);
   // The panorama is by far the most to upload; a slider changes only its place or the relief.
   const bool has_same_relief = wanted.HasReliefOf(shown_);
@@ -96,22 +96,24 @@ bool ShownBackdrop::Take(const EditorState& state, ArthroscopicView& scope, Over
   else if (!has_same_relief)
     scope.SetDepth(relief, sigma, relief_.get());
   const bool is_preview = wanted.panorama != wanted.of;
+  const DepthMap& seen = relief_ ? relief_->sampled : relief;
   if (keeps_panorama && has_same_reach)
-    overview.SetRelief(relief, drawn);
+    overview.SetRelief(seen, drawn);
   else
-    overview.SetBackdrop(wanted.reach && !is_preview ? *wanted.reach : *wanted.panorama, relief,
+    overview.SetBackdrop(wanted.reach && !is_preview ? *wanted.reach : *wanted.panorama, seen,
                          drawn);
   return true;
 }
 
 // The relief that was shown rough is shown as it is once it has been made.
-bool ShownBackdrop::TakeQuietRelief(ArthroscopicView& scope) {
+bool ShownBackdrop::TakeQuietRelief(ArthroscopicView& scope, Overview& overview) {
   if (!awaited_) return false;
   const auto made = work_.Find(*awaited_);
   if (!made) return false;
   awaited_.reset();
   relief_ = made;
   scope.SetDepth(OrEmpty(shown_.depth), OrEmpty(shown_.sigma), made.get());
+  overview.SetRelief(made->sampled, Drawn(shown_));
   return true;
 }
 

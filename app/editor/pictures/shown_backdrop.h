@@ -48,7 +48,7 @@ class ShownBackdrop {
   bool TakeRelief(const Content& wanted, const Backdrop& drawn);
   // The relief of a noisy map; null: the last one stays.
   std::shared_ptr<const DrawnRelief> NoisyRelief(const ReliefWork::Source& source, bool is_shown);
-  bool TakeQuietRelief(ArthroscopicView& scope);
+  bool TakeQuietRelief(ArthroscopicView& scope, Overview& overview);
 
   Content shown_;
   std::shared_ptr<const DrawnRelief> relief_;  // relief of a noisy map; null: not kept

@@ -204,7 +204,7 @@ void Overview::SetBackdrop(const ColourImage& panorama, const DepthMap& depth,
 
 void Overview::SetRelief(const DepthMap& depth, const Backdrop& backdrop) {
   Parts& p = *parts_;
-  SetData(*p.relief, MakeReliefMesh(p.panorama_size.x, p.panorama_size.y, depth, backdrop));
+  SetData(*p.relief, MakeReliefMesh(p.panorama_size, depth, backdrop));
   p.radius = backdrop.radius;
   p.changed = true;
 }

@@ -49,6 +49,7 @@ class Overview {
   Overview(const Overview&) = delete;
   Overview& operator=(const Overview&) = delete;
 
+  // `depth`: of the panorama's shape, in pixels of any size; empty: the bare sphere.
   void SetBackdrop(const ColourImage& panorama, const DepthMap& depth, const Backdrop& backdrop);
   // Replaces the relief or the place of the present panorama.
   void SetRelief(const DepthMap& depth, const Backdrop& backdrop);

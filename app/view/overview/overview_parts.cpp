@@ -20,11 +20,16 @@
 
 #include "simulation/scene/backdrop/relief_surface.h"
 #include "simulation/scene/mesh/vertex_normals.h"
+#include "simulation/scene/shrunk_projection.h"
 
 namespace arthro::app {
 
-vtkSmartPointer<vtkPolyData> MakeReliefMesh(int width, int height, const DepthMap& depth,
-                                            const Backdrop& backdrop, int cells) {
+vtkSmartPointer<vtkPolyData> MakeReliefMesh(const glm::ivec2& panorama_size, const DepthMap& depth,
+                                            Backdrop backdrop, int cells) {
+  const int width = depth.empty() ? panorama_size.x : depth.width,
+            height = depth.empty() ? panorama_size.y : depth.height;
+  backdrop.projection =
+      Shrunk(backdrop.projection, static_cast<double>(panorama_size.x) / std::max(width, 1));
   const ReliefSurface surface =
       MakeReliefSurface(width, height, depth, backdrop, cells, ReliefSample::kAtCorner);
   vtkNew<vtkPoints> points;

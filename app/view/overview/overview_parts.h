@@ -22,8 +22,9 @@ namespace arthro::app {
 
 // Returns the relief D − h over the panorama as a grid of at most `cells` cells along its longer
 // side, with texture coordinates and holes where nothing was imaged. Its front faces the portal.
-vtkSmartPointer<vtkPolyData> MakeReliefMesh(int width, int height, const DepthMap& depth,
-                                            const Backdrop& backdrop, int cells = 160);
+// The depth map has the shape of the panorama, in pixels of any size.
+vtkSmartPointer<vtkPolyData> MakeReliefMesh(const glm::ivec2& panorama_size, const DepthMap& depth,
+                                            Backdrop backdrop, int cells = 160);
 
 // Returns at most 2048 px per side.
 vtkSmartPointer<vtkTexture> MakePanoramaTexture(const ColourImage& panorama);

@@ -12,6 +12,7 @@
 #include "app/steps/panorama/board/panorama_run.h"
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/panorama/panorama_step.h"
+#include "authoring/panorama/report_io.h"
 #include "authoring/project/document_io.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
@@ -103,6 +104,16 @@ class FootageOfScene : public testing::Test {
 
   test::TempFolder temp;
 };
+
+// Colours fade to nothing at the border of a mosaic, not to black: darkness would count as depth.
+TEST_F(FootageOfScene, HasThePanoramaThatTheJobWrites) {
+  MakeScene();
+  authoring::PanoramaSession session;
+  authoring::WritePanorama(temp / "job.png", MadeUpRun(session, {}, {}, {}).picture);
+  const ColourImage of_job = ReadColourImage(temp / "job.png");
+  EXPECT_EQ(authoring::OpenDocument(scene()).panorama->rgb, of_job.rgb);
+  EXPECT_EQ(of_job.at(5, 5)[0], 200);
+}
 
 TEST_F(FootageOfScene, AReopenedSceneHasItsBoardReportAndChoice) {
   MakeScene();

@@ -218,8 +218,9 @@ TEST_F(Footage, TheResultBecomesTheBackdropInOneStepThatIsUndone) {
   EXPECT_FALSE(ShowsFootage(state));
   ASSERT_TRUE(state.document().panorama);
   EXPECT_EQ(state.document().panorama->width, 64);
-  // Straight alpha 200 on black: 200 · 200 / 255.
-  EXPECT_EQ(state.document().panorama->at(5, 5)[0], 157);
+  // Alpha fades a border to nothing; its colours stay, as in the job's file: 200, not 200 · 200 /
+  // 255.
+  EXPECT_EQ(state.document().panorama->at(5, 5)[0], 200);
   const Projection& projection = state.document().scene.backdrop.projection;
   EXPECT_EQ(projection.type, ProjectionType::kGnomonic);
   EXPECT_EQ(projection.focal_px, 55.0);

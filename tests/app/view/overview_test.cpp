@@ -80,6 +80,24 @@ TEST_F(OverviewTest, DrawsOnlyWhenSomethingChanged) {
   EXPECT_TRUE(overview_->Render(kSize, kSize - 1)) << "no such tissue: none is chosen";
 }
 
+// The relief as it is drawn has fewer pixels than the panorama and lies at the same place: of a
+// bare level relief, which has no detail to lose, the same picture.
+TEST_F(OverviewTest, AMapOfLargerPixelsLiesAtThePlaceOfThePanorama) {
+  overview_->SetTissues({}, {});
+  const int width = scene_.panorama->width, height = scene_.panorama->height;
+  const auto drawn = [&](int factor) {
+    overview_->SetRelief(DepthMap(width / factor, height / factor, 0.006f), scene_.scene.backdrop);
+    overview_->Render(kSize, kSize);
+    return overview_->ReadPixels();
+  };
+  const ColourImage fine = drawn(1);
+  for (const int factor : {2, 4}) {
+    const PictureDifference difference = ComparePictures(drawn(factor), fine);
+    std::printf("pixels of %d: %.2f %% off\n", factor, 100 * difference.share_off);
+    EXPECT_LT(difference.share_off, 0.02) << "pixels of " << factor;
+  }
+}
+
 // On a screen with an interface scale of 2 the labels were half as large as all other text.
 TEST_F(OverviewTest, LabelsGrowWithTheInterfaceScale) {
   // Pixels of the background of the labels. The background of the view is a gradient that begins

@@ -6,6 +6,7 @@
 #include "app/state/command.h"
 #include "app/state/edits.h"
 #include "app/state/footage/footage_source.h"
+#include "app/state/footage/measured_backdrop.h"
 #include "app/state/measured_depth.h"
 #include "app/steps/panorama/board/board_picture.h"
 #include "app/steps/panorama/board/footage_mail.h"
@@ -34,7 +35,8 @@ authoring::PanoramaObserver ObserverOf(const std::shared_ptr<FootageMail>& mail,
 std::shared_ptr<MadePanorama> MadeOf(authoring::PanoramaResult result,
                                      const std::set<int>& excluded) {
   auto made = std::make_shared<MadePanorama>();
-  made->picture = PictureFromRgba(result.picture);
+  if (!result.picture.empty())
+    made->picture = std::make_shared<const ColourImage>(OnBlack(result.picture));
   made->shown = PictureFromRgba(result.picture, kBoardEdge);
   made->projection = ProjectionOf(result.report.panorama);
   made->report = std::move(result.report);
