@@ -45,11 +45,12 @@ void TissueGrain::FindCrescent(const SurfaceMesh& whole) {
   begin_ = crescent->begin;
   sweep_ = crescent->sweep;
 
-  // Edges per angle; a bin without a vertex takes those of its neighbour.
+  // Edges per angle, from points along the sides of all triangles: a coarse surface has no vertex
+  // of an edge in many a bin. One that is still without a point takes those of its neighbour.
   inner_.fill(std::numeric_limits<double>::infinity());
   outer_.fill(-std::numeric_limits<double>::infinity());
-  for (const glm::dvec3& x : whole.vertices) {
-    const glm::dvec3 flat = plane_.InPlane(x);
+  const double most = 0.5 * radius_ * sweep_ / kBins;  // m, between two points
+  const auto take = [&](const glm::dvec3& flat) {
     const double r = std::hypot(flat.x, flat.y);
     const double at =
         std::remainder(AngleInPlane(flat) - begin_ - 0.5 * sweep_, kTurn) + 0.5 * sweep_;
@@ -57,7 +58,18 @@ void TissueGrain::FindCrescent(const SurfaceMesh& whole) {
         std::clamp(std::lround(at / sweep_ * kBins), 0L, static_cast<long>(kBins)));
     inner_[bin] = std::min(inner_[bin], r);
     outer_[bin] = std::max(outer_[bin], r);
-  }
+  };
+  for (const glm::dvec3& x : whole.vertices) take(plane_.InPlane(x));
+  for (const auto& triangle : whole.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto corner = [&](std::size_t i) {
+        return plane_.InPlane(whole.vertices[static_cast<std::size_t>(triangle[i % 3])]);
+      };
+      const glm::dvec3 from = corner(k), to = corner(k + 1);
+      const int count =
+          std::clamp(static_cast<int>(std::ceil(glm::distance(from, to) / most)), 1, kBins);
+      for (int i = 1; i < count; ++i) take(glm::mix(from, to, static_cast<double>(i) / count));
+    }
   const auto fill = [&](std::size_t bin, std::size_t from) {
     if (outer_[bin] >= inner_[bin]) return;
     inner_[bin] = inner_[from];

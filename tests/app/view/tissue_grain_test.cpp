@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -63,6 +64,36 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Pose{}, Pose{{0.02, -0.01, 0.03},
                                  glm::angleAxis(1.1, glm::normalize(glm::dvec3(1, 2, -1))),
                                  1.0}));
+
+// 14 stations along, their vertices not abreast: between two of them lie several angles of the
+// crescent without a vertex of either edge. The fibres ran in zigzag there.
+TEST(TissueGrain, FibresOfACoarseCrescentRunAlongIt) {
+  constexpr int kAlong = 14, kAcross = 3;
+  SurfaceMesh mesh;
+  for (int i = 0; i <= kAlong; ++i)
+    for (int j = 0; j <= kAcross; ++j) {
+      const double a = kHalfSweep * (2.0 * (i + 0.3 * (j % 2)) / kAlong - 1.0);
+      const double r = kInner + (kOuter - kInner) * j / kAcross;
+      mesh.vertices.emplace_back(r * std::cos(a), r * std::sin(a), 0.001 * (j % 2));
+    }
+  const auto at = [](int i, int j) { return i * (kAcross + 1) + j; };
+  for (int i = 0; i < kAlong; ++i)
+    for (int j = 0; j < kAcross; ++j) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  const TissueGrain grain(mesh, TissueStructure::kFibres);
+  double least = 1, most = 0;
+  for (double angle = -1.5; angle < 1.5; angle += 0.01) {
+    const double rim =
+        grain.At({0.012 * std::cos(angle), 0.012 * std::sin(angle), 0}, {0, 0, 1}).rim;
+    least = std::min(least, rim), most = std::max(most, rim);
+  }
+  std::printf("across the fibres along a circle: %.3f to %.3f\n", least, most);
+  // The chords of the stations lie up to 2 % of the width within either edge.
+  EXPECT_NEAR(least, 0.5, 0.04);
+  EXPECT_NEAR(most, 0.5, 0.04);
+}
 
 TEST(TissueGrain, PlateKnowsItsBorderAndItsSides) {
   SurfaceMesh plate = test::Sphere({0, 0, 0}, 1, 5);
