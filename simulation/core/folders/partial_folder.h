@@ -7,10 +7,6 @@
 
 namespace arthro {
 
-// The absolute name of a folder, without a slash at its end: "out", "out/" and "./out" give the
-// same.
-std::filesystem::path PlainFolder(const std::filesystem::path& folder);
-
 class PartialFolder {
  public:
   // Makes beside(), and the folders above `target` that are missing. What `target` holds stays
