@@ -66,8 +66,8 @@ void TissueGrain::FindCrescent(const SurfaceMesh& whole) {
         return plane_.InPlane(whole.vertices[static_cast<std::size_t>(triangle[i % 3])]);
       };
       const glm::dvec3 from = corner(k), to = corner(k + 1);
-      const int count =
-          std::clamp(static_cast<int>(std::ceil(glm::distance(from, to) / most)), 1, kBins);
+      const double pieces = glm::distance(from, to) / most;
+      const int count = pieces < kBins ? static_cast<int>(std::ceil(pieces)) : kBins;
       for (int i = 1; i < count; ++i) take(glm::mix(from, to, static_cast<double>(i) / count));
     }
   const auto fill = [&](std::size_t bin, std::size_t from) {
