@@ -21,7 +21,9 @@ constexpr double kRests = 0.4;      // s, in which tip and tissue come to rest b
 constexpr double kJaws = 0.3;       // s, in which jaws close or open
 constexpr double kYields = 1.0;     // N at the tip, from which the hand yields
 // Costs of a point of the rest, per point of the regions, from a careful bite to a bold one.
-constexpr std::array kRest = {2.0, 1.0, 0.5};
+constexpr std::array kRest = {4.0, 2.0, 1.0, 0.5};
+// Share of what is left of the regions that a bite takes, before the next bolder one is tried.
+constexpr double kWorthwhile = 0.08;
 constexpr double kTried = 1e-3;   // m about a bite that was not worth it, in which none is tried
 constexpr double kLeast = 2e-10;  // m³; a bite that takes less is not tried there again
 constexpr int kMostBites = 60;
@@ -139,15 +141,20 @@ struct Resection {
     return PointsOf(picture == nullptr ? places.surface : picture->skin->surface, regions,
                     portal_from_body);
   }
-  // The most careful bite with a gain, and the number of its cost.
+  // The most careful bite that is worthwhile, else the most careful with a gain, and the number of
+  // its cost.
   std::pair<Bite, std::size_t> Plan() const {
     const std::vector<TissuePoint> points = Points();
+    const double wanted =
+        static_cast<double>(std::ranges::count_if(points, &TissuePoint::is_wanted));
+    std::pair<Bite, std::size_t> small;
     for (std::size_t cost = 0; cost < kRest.size(); ++cost) {
       const Bite bite =
           BestBite(points, middles[cost], mind.joint.instrument_portal(), shape, kRest[cost]);
-      if (bite.gain > 0) return {bite, cost};
+      if (bite.gain > kWorthwhile * wanted) return {bite, cost};
+      if (bite.gain > 0 && small.first.gain <= 0) small = {bite, cost};
     }
-    return {};
+    return small;
   }
   // True where the jaws, where they have come to, hold as much of the regions and as little of the
   // rest as the bite was planned for. Tissue that yields is not where it was at rest.
