@@ -43,7 +43,7 @@ class NoisePlane {
     const int x = std::clamp(static_cast<int>(q.x), 0, width_ - 2),
               y = std::clamp(static_cast<int>(q.y), 0, height_ - 2);
     const float u = Smooth(q.x - static_cast<float>(x)), v = Smooth(q.y - static_cast<float>(y));
-    const float* below = &corners_[static_cast<std::size_t>(y * width_ + x)];
+    const float* below = corners_.data() + y * width_ + x;
     const float* above = below + width_;
     const float low = below[0] + (below[1] - below[0]) * u,
                 high = above[0] + (above[1] - above[0]) * u;
