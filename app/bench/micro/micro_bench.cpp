@@ -62,7 +62,7 @@ MicroBench RunMicroBench(const MicroBenchOptions& options, const Progress& progr
   std::string names;
   for (MicroGroup (*const make)(bool) :
        {AlignmentMicro, ScopeMicro, LensMicro, DepthMicro, PreviewMicro, ComposeMicro, SolidMicro,
-        SurfaceMicro, ReachMicro, KernelMicro, ObserverMicro, BrushMicro}) {
+        SurfaceMicro, ReachMicro, KernelMicro, ObserverMicro, BrushMicro, MurkMicro}) {
     MicroGroup group = make(options.quick);
     names += (names.empty() ? "" : ", ") + group.name;
     if (group.name.starts_with(options.only)) bench.groups.push_back(std::move(group));

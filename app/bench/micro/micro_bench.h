@@ -74,6 +74,7 @@ MicroGroup SurfaceMicro(bool quick);    // checks and filling of surfaces
 MicroGroup KernelMicro(bool quick);     // assembly and matrix products of tissue
 MicroGroup ObserverMicro(bool quick);   // frames of an attempt
 MicroGroup BrushMicro(bool quick);      // a stroke on a depth map
+MicroGroup MurkMicro(bool quick);       // murk of the fluid
 
 // Throws Error(kBadArgument) when no group is named so.
 MicroBench RunMicroBench(const MicroBenchOptions& options, const Progress& progress);
