@@ -28,9 +28,8 @@ const float kMostFootprint = 4.0;  // times that of a surface that faces the len
 const float kFullSide = 6.0;                 // slope of a certain side
 const float kTopStart = 0.1, kTopEnd = 0.3;  // share of the step below its upper edge
 const float kFoot = 0.95;                    // share of the step from which its foot begins
-// How much steeper a rounded part is than further from its outline by a look: slopes grow as one
-// over the root of the way to the outline, so from the middle of one look to that of the next by
-// root 3.
+// Near the outline of a rounded part, slopes grow as one over the root of the distance from it. The
+// place itself is nearer to it than the two looks above, as 1 to 3: so steeper by root 3.
 const float kRounded = 1.73;
 const float kSideBlur = 12.0;                // texels of the panorama
 const float kSideShift = 14.0;               // texels towards the upper edge
