@@ -45,6 +45,7 @@ void CameraPass::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window) {
   release(meter_passes_);
   release(camera_passes_);
   marks_->ReleaseGraphicsResources(window);
+  has_marks_ = false;
   for (RenderTarget* target : {&target_, &metered_}) target->ReleaseGraphicsResources(window);
 }
 
@@ -131,14 +132,25 @@ void CameraPass::Expose(vtkOpenGLRenderWindow* window, const Picture& picture,
   pass->Draw(size);
 }
 
-void CameraPass::TakeMarks(vtkOpenGLRenderWindow* window) {
-  if (marks_->GetHandle() != 0 && marks_->GetWidth() == static_cast<unsigned>(target_.size)) return;
-  marks_->SetContext(window);
+void CameraPass::AttachMarks(vtkOpenGLRenderWindow* window) {
   const auto side = static_cast<unsigned>(target_.size);
-  marks_->Create(GL_DEPTH_COMPONENT16, side, side);
+  if (has_marks_ && marks_->GetWidth() == side) return;
+  if (marks_->GetHandle() == 0 || marks_->GetWidth() != side) {
+    marks_->SetContext(window);
+    marks_->Create(GL_DEPTH_COMPONENT16, side, side);
+  }
   target_.framebuffer->Bind();
   target_.framebuffer->RemoveDepthAttachment();
   target_.framebuffer->AddDepthAttachment(marks_);
+  has_marks_ = true;
+}
+
+// OpenGL draws only where all attachments have pixels: marks of an earlier size would cut it off.
+void CameraPass::DetachMarks() {
+  if (!has_marks_) return;
+  target_.framebuffer->Bind();
+  target_.framebuffer->RemoveDepthAttachment();
+  has_marks_ = false;
 }
 
 void CameraPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture,
@@ -153,7 +165,7 @@ void CameraPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture,
   if (picture.features >= CameraFeatures::kEdges && picture.rays == 1) {
     // A software rasteriser executes the smoothing for every pixel that it shades. The depth test
     // leaves blocks without an edge out before that.
-    TakeMarks(window);
+    AttachMarks(window);
     target_.Bind(window);
     state->vtkglEnable(GL_DEPTH_TEST);
     state->vtkglDepthMask(GL_TRUE);
@@ -164,6 +176,7 @@ void CameraPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture,
     Expose(window, picture, finished, occlusion, size, Edges::kSmoothed);
     state->vtkglDepthFunc(GL_LEQUAL);
   } else {
+    DetachMarks();
     target_.Bind(window);
     Expose(window, picture, finished, occlusion, size, Edges::kLeft);
   }

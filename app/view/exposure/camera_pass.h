@@ -41,10 +41,12 @@ class CameraPass {
   // Draws one variant of the camera's shader from `finished`; the depth test chooses the pixels.
   void Expose(vtkOpenGLRenderWindow* window, const Picture& picture, vtkTextureObject& finished,
               vtkTextureObject* occlusion, int size, Edges edges);
-  void TakeMarks(vtkOpenGLRenderWindow* window);
+  void AttachMarks(vtkOpenGLRenderWindow* window);
+  void DetachMarks();
 
   RenderTarget target_, metered_;
-  vtkNew<vtkRenderbuffer> marks_;  // depth 1 at edges of the picture, of the target's size
+  vtkNew<vtkRenderbuffer> marks_;  // depth 1 at edges of the picture
+  bool has_marks_ = false;         // the target has them as its depths, at its own size
   CameraExposure exposure_;
   std::vector<std::uint8_t> texels_;
   std::vector<MeteredPart> parts_;

@@ -425,6 +425,22 @@ TEST_F(CameraPassView, FourRaysPerPixelGiveThePictureItsOwnSize) {
   EXPECT_NEAR(image.at(200, kSize / 2)[1], once.at(200, kSize / 2)[1], 4);
 }
 
+// The smoothing of edges has marks of its own size, which must not bound a larger picture.
+TEST_F(CameraPassView, PicturesWithoutSmoothingAreWholeAfterASmallerOneWithIt) {
+  Picture still = Forward(Grey(1024, 1024, 120), kNothing);
+  still.rays = 2;
+  Picture fringed = still, smoothed = still;
+  fringed.rays = smoothed.rays = 1;
+  smoothed.features = CameraFeatures::kEdges;
+  const ColourImage whole = Drawn(still), whole_fringed = Drawn(fringed);
+  for (int round = 0; round < 2; ++round) {
+    Drawn(smoothed, kSize / 2);
+    EXPECT_EQ(Drawn(still).rgb, whole.rgb);
+    Drawn(smoothed, kSize / 2);
+    EXPECT_EQ(Drawn(fringed).rgb, whole_fringed.rgb);
+  }
+}
+
 // A sweep of 6 mm in steps of 0.1 mm past the ring: a hand's second. No step may be seen as a
 // flicker, which begins at a change of contrast of 1 to 2 %.
 TEST_F(CameraPassView, ExposureIsSteadyInMotion) {
