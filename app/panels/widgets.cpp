@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
@@ -166,8 +167,21 @@ bool ToggleButton(Ui& ui, const std::string& name, bool chosen, bool enabled, co
   return pressed && enabled;
 }
 
+// ImGui lights half the spacing of items on each side of the words.
+PaddedRow::PaddedRow(const Ui& ui) : room_(ui.Px(8)) {
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {2 * room_, ImGui::GetStyle().ItemSpacing.y});
+  ImGui::Indent(room_);
+}
+
+PaddedRow::~PaddedRow() {
+  ImGui::Unindent(room_);
+  ImGui::PopStyleVar();
+}
+
 bool ListEntry(Ui& ui, const std::string& name, bool chosen, ImGuiSelectableFlags flags,
                const ImVec2& size) {
+  std::optional<PaddedRow> padded;
+  if (ImGui::GetCurrentTable() == nullptr) padded.emplace(ui);
   const bool pressed = ImGui::Selectable(ui.translation.Label(name).c_str(), chosen, flags, size);
   RecordItem(ui, name, true, chosen ? "on" : "off");
   return pressed;

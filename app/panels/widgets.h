@@ -42,7 +42,18 @@ bool Button(Ui& ui, const std::string& name, bool enabled = true, const ImVec2& 
 // A button that stands for a state: lit while `chosen`.
 bool ToggleButton(Ui& ui, const std::string& name, bool chosen, bool enabled = true,
                   const ImVec2& size = {0, 0}, const char* tooltip = nullptr);
-// A row of a list.
+// Room before the words of the next row, within what is lit when it is chosen.
+class PaddedRow {
+ public:
+  explicit PaddedRow(const Ui& ui);
+  ~PaddedRow();
+  PaddedRow(const PaddedRow&) = delete;
+  PaddedRow& operator=(const PaddedRow&) = delete;
+
+ private:
+  float room_;
+};
+// A row of a list. A table has padding of its own.
 bool ListEntry(Ui& ui, const std::string& name, bool chosen, ImGuiSelectableFlags flags = 0,
                const ImVec2& size = {0, 0});
 // A heading that opens and closes what follows.

@@ -22,6 +22,9 @@ constexpr double kCellWidth = 284, kPictureHeight = 160, kCellText = 74;
 void Tile(Ui& ui, EditorState& state, const char* id, float width) {
   const Command& command = CommandOf(state, id);
   const bool is_enabled = command.enabled(state);
+  const char* const help = is_enabled || HasPicture(state) || state.jobs.busy()
+                               ? command.help
+                               : "First begin a scene from footage or from a picture.";
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::BeginDisabled(!is_enabled);
   const bool is_pressed =
@@ -34,10 +37,10 @@ void Tile(Ui& ui, EditorState& state, const char* id, float width) {
   draw->AddText(ui.fonts.heading, ui.fonts.heading->FontSize,
                 {corner.x + ui.Px(10), corner.y + ui.Px(8)}, text, ui.In(command.words).c_str());
   draw->AddText(ui.fonts.text, ImGui::GetFontSize() * 0.88f,
-                {corner.x + ui.Px(10), corner.y + ui.Px(32)}, quiet, ui.In(command.help).c_str(),
-                nullptr, wrap);
+                {corner.x + ui.Px(10), corner.y + ui.Px(32)}, quiet, ui.In(help).c_str(), nullptr,
+                wrap);
   ImGui::EndDisabled();
-  Tooltip(ui, command.help, WordsOf(command.shortcut));
+  Tooltip(ui, help, WordsOf(command.shortcut));
   if (is_pressed && is_enabled) Run(state, command);
 }
 

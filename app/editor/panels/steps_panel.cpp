@@ -5,6 +5,7 @@
 #include "app/files/scene_checklist.h"
 #include "app/files/scene_files.h"
 #include "app/panels/fixed_window.h"
+#include "app/panels/no_panorama.h"
 #include "app/state/command.h"
 #include "app/steps/budget/frame_budget.h"
 #include "app/steps/depth/depth_step.h"
@@ -70,6 +71,7 @@ void Checklist(Ui& ui, EditorState& state) {
   const std::vector<MissingPart> missing = MissingParts(state);
   if (missing.empty()) return;
   Heading(ui, "Still missing in this scene");
+  if (!state.document().panorama) return AskForPanorama(ui, state, missing.front().sentence);
   int number = 0;
   for (const MissingPart& part : missing) {
     Text(ui, part.sentence);

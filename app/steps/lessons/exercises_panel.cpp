@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "app/panels/command_button.h"
+#include "app/panels/no_panorama.h"
 #include "app/panels/options_panel.h"
 #include "app/state/edits.h"
 #include "app/steps/lessons/exercise_edit.h"
@@ -41,8 +42,12 @@ std::string PlaceWords(const ExerciseTarget& target) {
 void List(Ui& ui, EditorState& state) {
   LessonsStep& step = *state.steps.lessons;
   const auto& exercises = state.document().scene.exercises;
-  if (exercises.empty())
+  if (exercises.empty()) {
     QuietText(ui, "This scene has no exercise. Add one, and click its targets in the picture.");
+  } else if (ChosenExercise(state) == nullptr) {
+    step.chosen = 0;
+    step.target = step.step = step.criterion = -1;
+  }
   // Without a scroll bar of its own, beside that of the panel.
   for (std::size_t i = 0; i < exercises.size(); ++i)
     if (ListEntry(ui, fmt::format("{}##{}", exercises[i].title, i),
@@ -161,6 +166,8 @@ void Steps(Ui& ui, EditorState& state) {
 }  // namespace
 
 void ExercisesPanel(Ui& ui, EditorState& state) {
+  if (!state.document().panorama)
+    return AskForPanorama(ui, state, "Exercises are made in a scene with a panorama.");
   List(ui, state);
   if (ChosenExercise(state) == nullptr) return;
   Gap(ui);

@@ -78,6 +78,22 @@ void ChangeTrainee(EditorState& state) {
   board.is_stale = true;
 }
 
+void StartExercise(EditorState& state, int exercise) {
+  LessonsStep& step = *state.steps.lessons;
+  step.chosen = exercise;
+  const LessonRecords& records = *step.records;
+  const std::string code = BoardOf(state).code;
+  if (records.trainee.empty() && !records.place.empty() && !code.empty()) {
+    TakeTraineeCode(state, code);
+    if (records.trainee.empty()) {
+      if (BoardOf(state).fault.empty())
+        state.message = "Add this trainee, or clear the code to practise without a record.";
+      return;
+    }
+  }
+  step.page = LessonPage::kBriefing;
+}
+
 const StartBoard& FreshStartBoard(EditorState& state) {
   StartBoard& board = BoardOf(state);
   const int chosen = state.steps.lessons->chosen;

@@ -16,6 +16,10 @@ void SuggestTraineeCode(EditorState& state);
 // Ends the session of the trainee.
 void ChangeTrainee(EditorState& state);
 
+// Opens the briefing of an exercise of the scene. A code that was typed and not used is used first;
+// one that nobody has yet keeps the page open, so that no attempt is lost for a missed button.
+void StartExercise(EditorState& state, int exercise);
+
 // The page as the records have it now; read anew where something changed.
 const StartBoard& FreshStartBoard(EditorState& state);
 

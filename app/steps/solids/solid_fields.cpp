@@ -129,6 +129,7 @@ void SolidFields(Ui& ui, EditorState& state) {
         "{:{}}{} {} {}", "", 3 * place.level,
         i == 0 ? "  " : kJoins[static_cast<std::size_t>(place.join)], TypeOf(part), i + 1);
     ImGui::PushID(i);
+    const PaddedRow padded(ui);
     if (ImGui::Selectable(words.c_str(), editing.part == i)) editing.part = i;
     RecordItem(ui, fmt::format("Part {}", i + 1), true, editing.part == i ? "on" : "off");
     ImGui::PopID();

@@ -90,6 +90,31 @@ expect "Saved in"
   EXPECT_EQ(saved.depth->width, saved.panorama->width);
 }
 
+TEST_F(FootageWindow, EveryPageLeadsToThePanoramaThatWasMadeAndNotUsed) {
+  Drive(
+      "click New\nexpect not \"Use this panorama\"\nclick Depth\nclick \"Take me there\"\n"
+      "expect value Panorama on\nclick Exercises\nexpect not \"New exercise\"\n"
+      "click \"Take me there\"\nclick \"Make one from a video…\"\nset \"File name\" " +
+      Clip() + R"(
+click "Use this folder"
+wait job
+click Run
+wait job
+click Practice
+expect "There is no panorama yet."
+expect enabled "Use this panorama"
+click Exercises
+expect enabled "Use this panorama"
+click Tissue
+click "Use this panorama"
+wait job
+expect value Depth on
+expect enabled "Touch preview"
+click Exercises
+expect enabled "New exercise"
+)");
+}
+
 TEST_F(FootageWindow, AFrameIsLeftOutAndTheRunGoesOnFromThere) {
   Drive("drop " + Clip() + R"(
 wait job

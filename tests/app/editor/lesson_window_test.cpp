@@ -53,6 +53,26 @@ expect "T-1"
   EXPECT_NE(list.out.find("test      stopped"), std::string::npos) << list.out;
 }
 
+TEST_F(LessonWindow, ACodeThatWasTypedIsUsedBeforeAnExerciseStarts) {
+  AddTrainee("T-1");
+  const auto result = test::RunWindow(Flags("--exercise centre-and-hold"), R"(
+wait frames 5
+click "Trainee's page"
+set "Trainee's code" T-2
+click "Start##start0"
+wait frames 3
+expect "Add this trainee, or clear the code to practise without a record."
+expect "No trainee has the code T-2 yet."
+expect not "Begin"
+set "Trainee's code" T-1
+click "Start##start0"
+wait frames 3
+expect "Kept for trainee T-1."
+expect enabled "Begin"
+)");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
 TEST_F(LessonWindow, SaysWhyAnExerciseIsShut) {
   AddTrainee("T-1");
   const auto result = test::RunWindow(Flags("--exercise telescope --trainee T-1"), R"(

@@ -7,6 +7,7 @@
 
 #include "app/panels/command_button.h"
 #include "app/panels/fixed_window.h"
+#include "app/panels/no_panorama.h"
 #include "app/panels/options_panel.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
@@ -49,10 +50,7 @@ void TouchOrBrush(Ui& ui, EditorState& state) {
 
 void DepthPanel(Ui& ui, EditorState& state) {
   const authoring::Document document = state.document();  // a copy: edits below move it
-  if (!document.panorama) {
-    QuietText(ui, "Depth is made from a panorama; import one first.");
-    return;
-  }
+  if (!document.panorama) return AskForPanorama(ui, state, "Depth is made from a panorama.");
   ScopeOrMap(ui, state);
   const bool is_imported = document.is_depth_imported;
   if (HasMeasuredDepth(document))

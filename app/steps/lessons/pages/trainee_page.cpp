@@ -85,10 +85,8 @@ void Exercises(Ui& ui, EditorState& state, const StartBoard& board) {
     GateOfRow(ui, row);
     ImGui::TableNextColumn();
     if (Button(ui, fmt::format("Start##start{}", i), row.is_open, {-FLT_MIN, 0},
-               "Read what it asks for, then begin.")) {
-      step.chosen = static_cast<int>(i);
-      step.page = LessonPage::kBriefing;
-    }
+               "Read what it asks for, then begin."))
+      StartExercise(state, static_cast<int>(i));
   }
   ImGui::EndTable();
 }

@@ -11,6 +11,7 @@
 
 #include "app/panels/command_button.h"
 #include "app/panels/fixed_window.h"
+#include "app/panels/no_panorama.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
 #include "app/steps/practice/practice_step.h"
@@ -232,14 +233,16 @@ void TissuePanel(Ui& ui, EditorState& state, const std::function<void()>& below_
     return TissueLibraryFields(ui, state);
   const auto& tissues = document.scene.tissues;
   if (tissues.empty()) {
-    QuietText(ui, document.panorama ? "No tissue yet. Import a closed surface of a meniscus or "
-                                      "cartilage, or take one from the library."
-                                    : "Tissue is placed on a panorama. Import one first.");
+    if (!document.panorama) return AskForPanorama(ui, state, "Tissue is placed on a panorama.");
+    QuietText(ui,
+              "No tissue yet. Import a closed surface of a meniscus or cartilage, or take one from "
+              "the library.");
     return;
   }
   for (int i = 0; i < static_cast<int>(tissues.size()); ++i) {
     const std::string& name = tissues[static_cast<std::size_t>(i)].name;
     ImGui::PushID(i);
+    const PaddedRow padded(ui);
     if (ImGui::Selectable(name.c_str(), state.tissue == i)) {
       if (state.tissue != i)
         state.steps.tissue->ball = state.steps.tissue->cut = state.steps.tissue->region = -1;
