@@ -16,6 +16,13 @@
 namespace arthro::app {
 namespace {
 
+constexpr double kHintAfter = 20;  // s, as in the exercises of the demo scene
+
+void GiveHint(StepBase& base) {
+  base.cue = CueKind::kOutline;
+  if (base.cue_after == 0) base.cue_after = kHintAfter;
+}
+
 std::vector<Exercise>& ExercisesOf(authoring::Document& document) {
   return document.scene.exercises;
 }
@@ -172,11 +179,23 @@ void AddStep(EditorState& state, int kind) {
   EditExercise(state, "New step", "", [&](Exercise& changed) {
     ExerciseStep step =
         StepOfKind(kind, std::make_index_sequence<std::variant_size_v<ExerciseStep>>());
-    BaseOf(step).id = FreeStepId(changed.steps);
-    for (const ExerciseTarget& target : changed.targets) BaseOf(step).targets.push_back(target.id);
+    StepBase& base = BaseOf(step);
+    base.id = FreeStepId(changed.steps);
+    GiveHint(base);
+    for (const ExerciseTarget& target : changed.targets) base.targets.push_back(target.id);
     changed.steps.push_back(std::move(step));
   });
   state.steps.lessons->step = static_cast<int>(ChosenExercise(state)->steps.size()) - 1;
+}
+
+void SetHint(EditorState& state, int step, bool has_hint) {
+  EditExercise(state, "Hint of the step", "", [&](Exercise& changed) {
+    StepBase& base = BaseOf(changed.steps[static_cast<std::size_t>(step)]);
+    if (has_hint)
+      GiveHint(base);
+    else
+      base.cue = CueKind::kNone, base.cue_after = 0;
+  });
 }
 
 void RemoveStep(EditorState& state, int step) {

@@ -27,6 +27,8 @@ void RemoveTarget(EditorState& state, int target);
 void RenameTarget(EditorState& state, int target, const std::string& name);
 void AddStep(EditorState& state, int kind);
 void RemoveStep(EditorState& state, int step);
+// Whether the step shows its targets when the trainee asks, and after 20 s or its own time.
+void SetHint(EditorState& state, int step, bool has_hint);
 // Exchanges a step with the one before or after it.
 void MoveStep(EditorState& state, int step, int by);
 void AddCriterion(EditorState& state);

@@ -11,17 +11,34 @@
 namespace arthro::app {
 namespace {
 
+constexpr double kUsualTime = 120, kUsualLength = 0.1;  // s, m; sliders end here
+
 // Numbers and choices of a step; texts and lists have fields of their own.
 struct StepFields {
   OptionsPanelVisitor& panel;
+  bool has_hint;
   template <class T, class R>
   void operator()(const char* name, T& field, const R& rule, const char* unit, const char* help) {
-    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, int>) {
-      if constexpr (std::is_same_v<R, Range>) panel(name, field, rule, unit, help);
+    if constexpr (std::is_same_v<T, double> && std::is_same_v<R, LeftOutAt<double, Range>>) {
+      const bool is_of_hint = std::string_view(name) == "cue_after";
+      if (!is_of_hint || has_hint)
+        panel(is_of_hint ? "hint_after" : name, field, Usual(rule.rule, field, unit), unit, help);
+    } else if constexpr (std::is_same_v<T, double> && std::is_same_v<R, Range>) {
+      panel(name, field, Usual(rule, field, unit), unit, help);
+    } else if constexpr (std::is_same_v<T, int> && std::is_same_v<R, Range>) {
+      panel(name, field, rule, unit, help);
     } else if constexpr (std::is_same_v<T, glm::dvec2> && std::is_same_v<R, Range>) {
-      panel((std::string(name) + "_from").c_str(), field.x, rule, unit, help);
-      panel((std::string(name) + "_to").c_str(), field.y, rule, unit, help);
+      panel((std::string(name) + "_from").c_str(), field.x, Usual(rule, field.x, unit), unit, help);
+      panel((std::string(name) + "_to").c_str(), field.y, Usual(rule, field.y, unit), unit, help);
     }
+  }
+
+ private:
+  // An hour or two metres on a slider would leave no value that can be set by hand.
+  static Range Usual(Range range, double value, std::string_view unit) {
+    const double most = unit == "s" ? kUsualTime : unit == "m" ? kUsualLength : range.max;
+    range.max = std::min(range.max, std::max(most, value));
+    return range;
   }
 };
 
@@ -128,8 +145,12 @@ void ChosenStep(Ui& ui, EditorState& state, std::size_t chosen) {
           std::erase(named, target.id);
       });
   }
+  bool has_hint = BaseOf(changed).cue != CueKind::kNone;
+  if (Checkbox(ui, "With a hint", has_hint,
+               "Shows the targets when the trainee asks, and after a time by itself."))
+    SetHint(state, static_cast<int>(chosen), has_hint);
   OptionsPanelVisitor panel{ui};
-  StepFields fields{panel};
+  StepFields fields{panel, has_hint};
   std::visit([&](auto& kind) { kind.Visit(fields); }, changed);
   if (!panel.changed_field.empty())
     EditExercise(state, panel.changed_field, "step-" + panel.changed_field,

@@ -6,6 +6,7 @@
 #include "app/steps/lessons/exercise_edit.h"
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/keeping/start_board.h"
+#include "app/steps/lessons/running_attempt.h"
 #include "app/steps/practice/start_practice.h"
 
 namespace arthro::app {
@@ -15,6 +16,13 @@ using State = EditorState;
 using simulation::ActKind;
 
 bool RunsAttempt(const State& state) { return state.steps.lessons->running.has_value(); }
+bool HasHint(const State& state) {
+  if (!RunsAttempt(state)) return false;
+  const simulation::StepEngine& engine = state.steps.lessons->running->engine;
+  const int step = engine.strip().step;
+  return step >= 0 &&
+         BaseOf(engine.exercise().steps[static_cast<std::size_t>(step)]).cue != CueKind::kNone;
+}
 bool HasResult(const State& state) {
   return !state.practice && state.steps.lessons->finished.has_value();
 }
@@ -134,11 +142,11 @@ constexpr Command kCommands[] = {
      BeginExercise},
     {"attempt-hint",
      "Hint",
-     "Show where the target is.",
+     "Show where the target is, where the step has a hint.",
      "Lessons",
      {GLFW_KEY_N},
      {},
-     RunsAttempt,
+     HasHint,
      Do<ActKind::kHint>},
     {"attempt-mark",
      "Mark",

@@ -63,7 +63,7 @@ struct StepBase {
                                                   {CueKind::kGhost, "ghost"}}}},
       "", "Help that is shown in the picture.");
     v("cue_after", cue_after, LeftOutAt{0.0, kStepTime}, "s",
-      "Seconds from the start of the step to its cue.");
+      "Seconds from the start of the step to its hint.");
     v("limit", limit, LeftOutAt{0.0, kStepTime}, "s",
       "Seconds after which the step has failed; 0 for none.");
     v("optional", is_optional, LeftOutAt{false, Any{}}, "",

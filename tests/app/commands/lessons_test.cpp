@@ -141,14 +141,36 @@ TEST(Lessons, AnAuthoredExerciseCanBeUndoneStepByStepAndBegun) {
   AddCriterion(state);
   EXPECT_EQ(BaseOf(ChosenExercise(state)->steps[0]).targets,
             std::vector<std::string>{ChosenExercise(state)->targets[0].id});
+  EXPECT_EQ(BaseOf(ChosenExercise(state)->steps[0]).cue, CueKind::kOutline);
+  EXPECT_FALSE(CommandOf(state, "attempt-hint").enabled(state)) << "there is no attempt";
   app::Run(state, "begin-exercise");
   Settle(state);
   ASSERT_TRUE(state.practice);
+  for (int i = 0; i < 5; ++i) Frame(state);
+  EXPECT_TRUE(CommandOf(state, "attempt-hint").enabled(state));
   app::Run(state, "end-attempt");
   for (int steps = 0; !(state.document().scene == before); ++steps) {
     ASSERT_LT(steps, 5) << "one step of the history for each edit";
     app::Run(state, "undo");
   }
+}
+
+TEST(Lessons, AStepWithoutAHintOffersNone) {
+  EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
+  Prepare(state);
+  state.step = Step::kExercises;
+  app::Run(state, "new-exercise");
+  AddTarget(state);
+  PlaceTarget(state, {{0, 0, 0.01}, {0, 0, 1}}, std::nullopt);
+  AddStep(state, 0);
+  SetHint(state, 0, false);
+  app::Run(state, "begin-exercise");
+  Settle(state);
+  for (int i = 0; i < 5; ++i) Frame(state);
+  EXPECT_FALSE(CommandOf(state, "attempt-hint").enabled(state));
+  app::Run(state, "end-attempt");
+  SetHint(state, 0, true);
+  EXPECT_EQ(BaseOf(ChosenExercise(state)->steps[0]).cue_after, 20);
 }
 
 TEST(Lessons, ARenamedTargetIsNamedAnewWhereverTheExerciseSpeaksOfIt) {
