@@ -294,7 +294,8 @@ bool Combo(Ui& ui, const std::string& name, int& chosen, const std::vector<std::
                                 ? words[static_cast<std::size_t>(chosen)]
                                 : "";
   bool changed = false;
-  const bool open = ImGui::BeginCombo(Hidden(name).c_str(), ui.In(shown).c_str());
+  const bool open =
+      ImGui::BeginCombo(Hidden(name).c_str(), ui.In(shown.empty() ? "choose…" : shown).c_str());
   RecordItem(ui, name, true, shown, WidgetKind::kCombo);
   const std::size_t own = ui.widgets.widgets().size() - 1;
   Tooltip(ui, tooltip);
