@@ -65,10 +65,10 @@ struct OptionsPanelVisitor {
     } else if constexpr (std::is_same_v<T, double> && std::is_same_v<R, Range>) {
       double shown = field * border.factor;
       const double most = std::string_view(unit) == "m" ? std::min(range.max, longest) : range.max;
-      const double low = range.min * border.factor, high = most * border.factor;
-      Note(words,
-           Slider(ui, words, shown, low, high,
-                  Format(unit, (range.max - range.min) * border.factor).c_str(), help),
+      const double width = (range.max - range.min) * border.factor, high = most * border.factor;
+      // The border itself is not allowed where the range lies above it.
+      const double low = range.min * border.factor + (range.above_min ? StepOf(width) : 0.0);
+      Note(words, Slider(ui, words, shown, low, high, Format(unit, width).c_str(), help),
            [&] { field = shown / border.factor; });
     } else if constexpr (std::is_same_v<T, int> && std::is_same_v<R, Range>) {
       int shown = field;
@@ -99,10 +99,13 @@ struct OptionsPanelVisitor {
 
   static std::string Escaped(const std::string& unit) { return unit == "%" ? "%%" : unit; }
 
+  // Least difference that is shown, in the unit that is shown.
+  static double StepOf(double width) { return width > 50 ? 0.1 : 0.01; }
+
   // Decimals that a person can set with the mouse.
   static std::string Format(const std::string& unit, double width) {
     const std::string shown = unit == "m" ? "mm" : unit == "rad" ? "°" : Escaped(unit);
-    const char* number = width > 50 ? "%.1f" : "%.2f";
+    const char* number = StepOf(width) == 0.1 ? "%.1f" : "%.2f";
     return std::string(number) + (shown.empty() ? "" : " ") + shown;
   }
 };

@@ -28,8 +28,16 @@ struct StepFields {
     } else if constexpr (std::is_same_v<T, int> && std::is_same_v<R, Range>) {
       panel(name, field, rule, unit, help);
     } else if constexpr (std::is_same_v<T, glm::dvec2> && std::is_same_v<R, Range>) {
+      const double from_before = field.x;
       panel((std::string(name) + "_from").c_str(), field.x, Usual(rule, field.x, unit), unit, help);
       panel((std::string(name) + "_to").c_str(), field.y, Usual(rule, field.y, unit), unit, help);
+      // The end that is moved takes the other one along.
+      if (field.x > field.y) {
+        if (field.x != from_before)
+          field.y = field.x;
+        else
+          field.x = field.y;
+      }
     }
   }
 

@@ -1,5 +1,5 @@
-// practise --exercise --trainee: the window on the briefing of an exercise, the attempt, its result
-// and the look back, later as well.
+// Exercises in the window: the briefing by `practise --exercise --trainee`, the attempt, its result
+// and the look back, later as well; the steps that an author makes.
 #include <gtest/gtest.h>
 
 #include "tests/support/run_window.h"
@@ -71,6 +71,31 @@ expect "Kept for trainee T-1."
 expect enabled "Begin"
 )");
   EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(LessonWindow, SlidersOfAStepGiveNoValueThatASceneRefuses) {
+  const std::filesystem::path saved = folder / "knee";
+  const auto result = test::RunWindow("edit " ARTHRO_SOURCE_DIR "/resources/demo", R"(
+click Exercises
+click "New exercise"
+click "Add a target by a click"
+click Picture 0 0
+click "Add a step"
+click See
+expect value "Hint after" "20.0 s"
+set "Distance to" -5
+expect value "Distance to" "0.1 mm"
+expect value "Distance from" "0.1 mm"
+set "Distance from" 7
+expect value "Distance to" "7.0 mm"
+set "Hint after" 99999
+expect value "Hint after" "120.0 s"
+do save-as )" + saved.string() + R"(
+wait job
+expect "Saved in"
+)");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(saved / "scene.json"));
 }
 
 TEST_F(LessonWindow, SaysWhyAnExerciseIsShut) {

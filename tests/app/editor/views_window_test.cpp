@@ -79,6 +79,26 @@ TEST_F(EditorWindow, AHighDensityScreenIsTheSameWindowTwiceAsLarge) {
   EXPECT_EQ(ReadColourImage(shot).width, 2560);
 }
 
+TEST_F(EditorWindow, ThePictureAtRestIsTheSameWithASmallMovingPicture) {
+  Drive(R"(
+pose scope 0.015 -0.2 0 0
+wait frames 60
+shot )" +
+        (temp / "full.png").string() +
+        R"(
+key ctrl+,
+click "Moving picture"
+click small
+click Close
+pose scope 0.015 -0.3 0.1 0
+wait frames 3
+pose scope 0.015 -0.2 0 0
+wait frames 60
+shot )" +
+        (temp / "small.png").string() + "\n");
+  EXPECT_EQ(ReadColourImage(temp / "small.png").rgb, ReadColourImage(temp / "full.png").rgb);
+}
+
 TEST_F(EditorWindow, TheSameScriptGivesTheSamePicture) {
   const std::string shots[] = {(temp / "a.png").string(), (temp / "b.png").string()};
   for (const auto& shot : shots) Drive("drag Picture 40 20\nwheel Picture 2\nshot " + shot);
