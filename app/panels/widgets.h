@@ -53,6 +53,7 @@ class PaddedRow {
  private:
   float room_;
 };
+
 // A row of a list. A table has padding of its own.
 bool ListEntry(Ui& ui, const std::string& name, bool chosen, ImGuiSelectableFlags flags = 0,
                const ImVec2& size = {0, 0});
