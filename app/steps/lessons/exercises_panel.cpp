@@ -29,8 +29,8 @@ struct StepFields {
       panel(name, field, rule, unit, help);
     } else if constexpr (std::is_same_v<T, glm::dvec2> && std::is_same_v<R, Range>) {
       const double from_before = field.x;
-      panel((std::string(name) + "_from").c_str(), field.x, Usual(rule, field.x, unit), unit, help);
-      panel((std::string(name) + "_to").c_str(), field.y, Usual(rule, field.y, unit), unit, help);
+      panel((std::string(name) + "_from").c_str(), field.x, rule, unit, help);
+      panel((std::string(name) + "_to").c_str(), field.y, rule, unit, help);
       // The end that is moved takes the other one along.
       if (field.x > field.y) {
         if (field.x != from_before)
@@ -42,10 +42,9 @@ struct StepFields {
   }
 
  private:
-  // An hour or two metres on a slider would leave no value that can be set by hand.
+  // A slider of an hour would leave no time that can be set by hand.
   static Range Usual(Range range, double value, std::string_view unit) {
-    const double most = unit == "s" ? kUsualTime : unit == "m" ? kUsualLength : range.max;
-    range.max = std::min(range.max, std::max(most, value));
+    if (unit == "s") range.max = std::min(range.max, std::max(kUsualTime, value));
     return range;
   }
 };
@@ -157,7 +156,7 @@ void ChosenStep(Ui& ui, EditorState& state, std::size_t chosen) {
   if (Checkbox(ui, "With a hint", has_hint,
                "Shows the targets when the trainee asks, and after a time by itself."))
     SetHint(state, static_cast<int>(chosen), has_hint);
-  OptionsPanelVisitor panel{ui};
+  OptionsPanelVisitor panel{ui, kUsualLength};
   StepFields fields{panel, has_hint};
   std::visit([&](auto& kind) { kind.Visit(fields); }, changed);
   if (!panel.changed_field.empty())
