@@ -65,4 +65,17 @@ glm::dmat2x3 PixelGradients(const Projection& projection, const glm::dvec3& dire
                    k / axis * (glm::dvec3(0.0, 1.0, 0.0) - d.y / r2 * d));
 }
 
+double LongerPixelGradient(const Projection& projection, const glm::dvec2& pixel) noexcept {
+  const glm::dvec2 offset = pixel - projection.centre_px;
+  if (projection.type == ProjectionType::kGnomonic) {
+    // 1/d.z² = 1 + (x/z)² + (y/z)²
+    const glm::dvec2 slope = offset / projection.focal_px, squares = slope * slope;
+    return projection.focal_px *
+           std::sqrt((1.0 + squares.x + squares.y) * (1.0 + std::max(squares.x, squares.y)));
+  }
+  // Longitude; the gradient of the latitude has the length k everywhere.
+  const double latitude = RadiansFromDegrees(offset.y / projection.px_per_deg);
+  return DegreesFromRadians(projection.px_per_deg) / std::max(std::abs(std::cos(latitude)), 1e-9);
+}
+
 }  // namespace arthro

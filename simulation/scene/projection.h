@@ -61,4 +61,8 @@ glm::dvec3 DirectionFromPixel(const Projection& projection, const glm::dvec2& pi
 // is avoided by a floor of 1e-9 on the distance from the axis.
 glm::dmat2x3 PixelGradients(const Projection& projection, const glm::dvec3& direction) noexcept;
 
+// Length of the longer of both gradients in the unit direction of a pixel, in closed form: px per
+// unit of direction.
+double LongerPixelGradient(const Projection& projection, const glm::dvec2& pixel) noexcept;
+
 }  // namespace arthro

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include "app/view/backdrop/relief_filling.h"
@@ -231,9 +232,13 @@ ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap&
 
 ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap& depth,
                                 DepthMap drawn, bool whole_turn, const DepthMap& sampled_sigma) {
-  const ImagedMask mask = MakeImagedMask(panorama_size.x, panorama_size.y, depth, whole_turn);
+  ImagedMask mask;
+  const auto make_mask = [&] {
+    mask = MakeImagedMask(panorama_size.x, panorama_size.y, depth, whole_turn);
+  };
   ReliefTexture relief;
   if (depth.empty()) {
+    make_mask();
     relief.width = mask.width;
     relief.height = mask.height;
     for (const float share : mask.share)
@@ -249,8 +254,11 @@ ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap&
                 .texels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(relief.width) +
                              static_cast<std::size_t>(x))];
   };
-  SmoothOutlines(drawn, whole_turn, sampled_sigma);
-  FillUnknown(drawn);
+  {
+    const std::jthread other(make_mask);
+    SmoothOutlines(drawn, whole_turn, sampled_sigma);
+    FillUnknown(drawn);
+  }
   const std::vector<Between> columns = PlacesIn(mask.width, relief.width),
                              rows = PlacesIn(mask.height, relief.height);
   simulation::ForRowsOnTwoThreads(0, relief.height, [&](int first, int last) {

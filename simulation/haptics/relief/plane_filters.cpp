@@ -73,64 +73,123 @@ void WidenRow(float* __restrict row, std::size_t width, std::size_t gap,
     row[x] = taps[x] * left[x] + tap_right[x] * right[x] + 0.5f * middle[x];
 }
 
-// Down the columns: `row` becomes 1/2 of itself, a share of `above`, which it replaces, and a share
-// of `below`.
-void WidenColumns(float* __restrict row, float* __restrict above, const float* __restrict below,
-                  const float* __restrict tap_above, const float* __restrict tap_below,
-                  std::size_t width) {
+// Down the columns: 1/2 of the own row, a share of the one above and one of the one below.
+void WidenColumns(float* __restrict row, const float* __restrict above, const float* __restrict own,
+                  const float* __restrict below, const float* __restrict tap_above,
+                  const float* __restrict tap_below, std::size_t width) {
   if (tap_above == nullptr) {
-    for (std::size_t x = 0; x < width; ++x) {
-      const float own = row[x];
-      row[x] = (0.5f * own + 0.25f * above[x]) + 0.25f * below[x];
-      above[x] = own;
-    }
+    for (std::size_t x = 0; x < width; ++x)
+      row[x] = (0.5f * own[x] + 0.25f * above[x]) + 0.25f * below[x];
     return;
   }
-  for (std::size_t x = 0; x < width; ++x) {
-    const float own = row[x];
-    row[x] = (0.5f * own + tap_above[x] * above[x]) + tap_below[x] * below[x];
-    above[x] = own;
+  for (std::size_t x = 0; x < width; ++x)
+    row[x] = (0.5f * own[x] + tap_above[x] * above[x]) + tap_below[x] * below[x];
+}
+
+// Widens rows of a plane along themselves, within a window.
+class Across {
+ public:
+  Across(int width, int gap, const OuterTaps& taps, const PixelBounds& window)
+      : taps_(taps),
+        stride_(static_cast<std::size_t>(width)),
+        left_(static_cast<std::size_t>(window.left)),
+        gap_(static_cast<std::size_t>(gap)),
+        width_(static_cast<std::size_t>(window.width())),
+        before_(std::min(left_, gap_)),
+        after_(std::min(stride_ - static_cast<std::size_t>(window.right), gap_)),
+        padded_(width_ + 2 * gap_, 0.0f),
+        weights_(width_ + 2 * gap_, 0.25f) {}
+
+  // Place of the window's part of row `y` in a plane.
+  std::size_t Start(int y) const { return static_cast<std::size_t>(y) * stride_ + left_; }
+
+  // Into a row of the window's width.
+  void Row(const Plane& data, int y, float* to) {
+    const float* from = data.data() + Start(y) - before_;
+    const float* of_row = taps_.right.empty() ? nullptr : taps_.right.data() + Start(y) - before_;
+    if (before_ < gap_ || after_ < gap_) {  // at the border
+      std::copy_n(from, before_ + width_ + after_, padded_.begin() + Signed(gap_ - before_));
+      from = padded_.data();
+      if (of_row != nullptr && before_ < gap_) {
+        std::copy_n(of_row, before_ + width_, weights_.begin() + Signed(gap_ - before_));
+        of_row = weights_.data();
+      }
+    }
+    WidenRow(to, width_, gap_, from, of_row);
   }
+
+ private:
+  static std::ptrdiff_t Signed(std::size_t count) { return static_cast<std::ptrdiff_t>(count); }
+
+  const OuterTaps& taps_;
+  std::size_t stride_, left_, gap_, width_, before_, after_;
+  Plane padded_, weights_;
+};
+
+// Rows that a window of a plane reads.
+struct ReadRows {
+  int first, last;
+};
+ReadRows RowsReadBy(const PixelBounds& window, int gap, int height) {
+  return {std::max(window.top - gap, 0), std::min(window.bottom + gap, height)};
+}
+
+// Row `y` of a window from rows that are widened along themselves. `taps`: from row to row; empty:
+// 1/4. Weights of rows beyond the border do not count: their values are 0.
+void WidenDown(Plane& data, int y, int gap, const float* above, const float* own,
+               const float* below, const OuterTaps& taps, const Across& across, int width) {
+  const float* const tap_below = taps.below.empty() ? nullptr : taps.below.data() + across.Start(y);
+  const float* const tap_above =
+      taps.below.empty() || y < gap ? tap_below : taps.below.data() + across.Start(y - gap);
+  WidenColumns(data.data() + across.Start(y), above, own, below, tap_above, tap_below,
+               static_cast<std::size_t>(width));
 }
 
 }  // namespace
 
 void Widen(Plane& data, int width, int height, int gap, const OuterTaps& taps,
            const PixelBounds& window, Plane& scratch) {
-  const auto stride = static_cast<std::size_t>(width), g = static_cast<std::size_t>(gap);
-  const auto w = static_cast<std::size_t>(window.width()),
-             left = static_cast<std::size_t>(window.left);
-  const bool has_taps = !taps.right.empty();
-  // A padded row and the weights between its pixels, where it begins at the border; a row of zeros
-  // beyond the border; the last `gap` rows as they were before this went down the columns.
-  scratch.assign(2 * (w + 2 * g) + w + g * w, 0.0f);
-  float *const padded = scratch.data(), *const weights = padded + w + 2 * g,
-               *const none = weights + w + 2 * g, *const ring = none + w;
-  std::fill(weights, none, 0.25f);
-  const std::size_t before = std::min(left, g),
-                    after = std::min(stride - static_cast<std::size_t>(window.right), g);
-  const auto start = [&](int y) { return static_cast<std::size_t>(y) * stride + left; };
-  const auto across = [&](int y) {
-    float* const row = data.data() + start(y);
-    std::copy(row - before, row + w + after, padded + g - before);
-    const float* of_row = has_taps ? taps.right.data() + start(y) - before : nullptr;
-    if (has_taps && before < g) {
-      std::copy_n(of_row, w + before, weights + g - before);
-      of_row = weights;
-    }
-    WidenRow(row, w, g, padded, of_row);
+  // A row of zeros beyond the border; the rows from a gap above to a gap below this one, widened
+  // along themselves.
+  const auto w = static_cast<std::size_t>(window.width());
+  const int held = 2 * gap + 1;
+  if (const std::size_t size = w * (1 + static_cast<std::size_t>(held)); scratch.size() < size)
+    scratch.resize(size);
+  std::fill_n(scratch.begin(), w, 0.0f);
+  Across across(width, gap, taps, window);
+  const auto [first, last] = RowsReadBy(window, gap, height);
+  const auto row_at = [&, first = first, last = last](int y) {
+    const bool is_read = first <= y && y < last;
+    return scratch.data() + (is_read ? w + static_cast<std::size_t>(y % held) * w : 0);
   };
-  const int first = std::max(window.top - gap, 0), last = std::min(window.bottom + gap, height);
-  for (int y = first; y < std::min(first + gap, last); ++y) across(y);
-  for (int y = first; y < last; ++y) {
-    if (y + gap < last) across(y + gap);
-    // Weights of rows beyond the border do not count: their values are 0.
-    const float* const tap_below = has_taps ? taps.below.data() + start(y) : nullptr;
-    const float* const tap_above =
-        has_taps && y >= gap ? taps.below.data() + start(y - gap) : tap_below;
-    WidenColumns(data.data() + start(y), ring + static_cast<std::size_t>(y % gap) * w,
-                 y + gap < last ? data.data() + start(y + gap) : none, tap_above, tap_below, w);
+  for (int y = first; y < window.top + gap; ++y)
+    if (y < last) across.Row(data, y, row_at(y));
+  for (int y = window.top; y < window.bottom; ++y) {
+    if (y + gap < last) across.Row(data, y + gap, row_at(y + gap));
+    WidenDown(data, y, gap, row_at(y - gap), row_at(y), row_at(y + gap), taps, across,
+              window.width());
   }
+}
+
+void WidenOnTwoThreads(Plane& data, int width, int height, int gap, const OuterTaps& taps,
+                       const PixelBounds& window, Plane& scratch) {
+  if (scratch.size() < data.size()) scratch.resize(data.size());
+  const auto [first, last] = RowsReadBy(window, gap, height);
+  ForRowsOnTwoThreads(first, last, [&](int begin, int end) {
+    Across across(width, gap, taps, window);
+    for (int y = begin; y < end; ++y) across.Row(data, y, scratch.data() + across.Start(y));
+  });
+  const Plane none(static_cast<std::size_t>(window.width()), 0.0f);
+  ForRowsOnTwoThreads(
+      window.top, window.bottom, [&, first = first, last = last](int begin, int end) {
+        const Across across(width, gap, taps, window);
+        const auto row_at = [&](int y) {
+          return first <= y && y < last ? scratch.data() + across.Start(y) : none.data();
+        };
+        for (int y = begin; y < end; ++y)
+          WidenDown(data, y, gap, row_at(y - gap), row_at(y), row_at(y + gap), taps, across,
+                    window.width());
+      });
 }
 
 void Dilate(Plane& data, int width, int height, int reach) {

@@ -24,8 +24,8 @@ struct OuterTaps {
 void FilterBinomial(Plane& data, int width, int height, int passes);
 
 // Applies (1 2 1)/4 with `gap` pixels between its taps in both directions: adds gap²/2 to the
-// variance, where all taps count. `scratch` may have any size. Only the pixels of `window` get
-// their values; those within a gap of it are lost.
+// variance, where all taps count. `scratch` may have any size. Only the pixels of `window`
+// are written.
 void Widen(Plane& data, int width, int height, int gap, const OuterTaps& taps,
            const PixelBounds& window, Plane& scratch);
 
@@ -33,6 +33,10 @@ void Widen(Plane& data, int width, int height, int gap, const OuterTaps& taps,
 // result does not depend on the threads.
 void WidenAll(std::span<Plane* const> planes, int width, int height, int gap, const OuterTaps& taps,
               const PixelBounds& window);
+
+// Widens one plane on two threads, each for half of its rows: the same bytes.
+void WidenOnTwoThreads(Plane& data, int width, int height, int gap, const OuterTaps& taps,
+                       const PixelBounds& window, Plane& scratch);
 
 // Replaces each value by the maximum over the square of (2 reach + 1) pixels about it, on two
 // threads.

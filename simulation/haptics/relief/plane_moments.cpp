@@ -7,14 +7,13 @@
 
 namespace arthro::simulation {
 
-PlaneMoments::PlaneMoments(Plane mass, Plane height, int map_width, int map_height,
+PlaneMoments::PlaneMoments(Plane mass, const Plane& height, int map_width, int map_height,
                            const MapFrame& frame)
     : width_(map_width),
       frame_(frame),
       centre_x_(0.5f * static_cast<float>(frame.width)),
       centre_y_(0.5f * static_cast<float>(frame.height)),
-      m_(std::move(mass)),
-      h_(std::move(height)) {
+      m_(std::move(mass)) {
   const auto w = static_cast<std::size_t>(map_width);
   // `term(x, y)`: factor of the mass or of the height at a pixel.
   const auto fill = [&](Plane& to, const Plane& of, const auto& term) {
@@ -34,16 +33,17 @@ PlaneMoments::PlaneMoments(Plane mass, Plane height, int map_width, int map_heig
   });
   fill(x_, m_, [](float x, float) { return x; });
   fill(y_, m_, [](float, float y) { return y; });
-  fill(hx_, h_, [](float x, float) { return x; });
-  fill(hy_, h_, [](float, float y) { return y; });
+  fill(hx_, height, [](float x, float) { return x; });
+  fill(hy_, height, [](float, float y) { return y; });
 }
 
-void PlaneMoments::PlanesAt(int row, int first, int last, float* heights) const {
+void PlaneMoments::PlanesAt(const Plane& height, int row, int first, int last,
+                            float* heights) const {
   // A pixel is as wide as a variance of 1/12; this also keeps a single row from being singular.
   constexpr float kOfPixel = 1.0f / 12.0f;
   const auto begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
                      static_cast<std::size_t>(first);
-  const float *const m = m_.data() + begin, *const mh = h_.data() + begin,
+  const float *const m = m_.data() + begin, *const mh = height.data() + begin,
                      *const mx = x_.data() + begin, *const my = y_.data() + begin,
                      *const mxx = xx_.data() + begin, *const mxy = xy_.data() + begin,
                      *const myy = yy_.data() + begin, *const mhx = hx_.data() + begin,

@@ -6,13 +6,12 @@
 #include <cstddef>
 #include <initializer_list>
 #include <numbers>
-#include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include <glm/geometric.hpp>
-
 #include "simulation/core/error.h"
+#include "simulation/haptics/relief/growing_kernel.h"
 #include "simulation/haptics/relief/plane_filters.h"
 #include "simulation/haptics/relief/plane_moments.h"
 #include "simulation/haptics/relief/relief_steps.h"
@@ -23,11 +22,11 @@ namespace {
 // Difference of two heights, in standard errors, from which on a tap counts less, and not at all.
 constexpr float kSameSide = 2.0f, kOtherSide = 4.0f;
 
-// `near`: how near each pixel is to a step; empty: there is none.
-OuterTaps TapsBetween(const Plane& near, const Plane& heights, const Plane& sigma, int width,
-                      int height, int gap, const PixelBounds& window) {
-  OuterTaps taps;
-  if (near.empty()) return taps;
+// `near`: how near each pixel is to a step; empty: there is none. `taps` is empty, or of the growth
+// before.
+void FindTaps(const Plane& near, const Plane& heights, const Plane& sigma, int width, int height,
+              int gap, const PixelBounds& window, OuterTaps& taps) {
+  if (near.empty()) return;
   const auto w = static_cast<std::size_t>(width), g = static_cast<std::size_t>(gap);
   taps.right.resize(near.size());
   taps.below.resize(near.size());
@@ -50,7 +49,6 @@ OuterTaps TapsBetween(const Plane& near, const Plane& heights, const Plane& sigm
         taps.below[i] = y + gap < height ? tap(i, i + g * w) : 0.25f;
     }
   });
-  return taps;
 }
 
 MapFrame WholeOf(const DepthMap& map) { return {0, 0, map.width, map.height}; }
@@ -110,11 +108,7 @@ Plane SmoothSigma(const DepthMap& depth, const DepthMap& sigma) {
 // Pixels per metre across the line of sight, the larger of both directions; 0 at the portal.
 double PixelsPerMetre(const Backdrop& backdrop, float height, int x, int y) {
   const double radius = backdrop.radius - static_cast<double>(height);
-  if (!(radius > 0.0)) return 0.0;
-  const glm::dmat2x3 gradients =
-      PixelGradients(backdrop.projection, radius * DirectionFromPixel(backdrop.projection, {x, y}));
-  return std::sqrt(
-      std::max(glm::dot(gradients[0], gradients[0]), glm::dot(gradients[1], gradients[1])));
+  return radius > 0.0 ? LongerPixelGradient(backdrop.projection, {x, y}) / radius : 0.0;
 }
 
 // Standard deviation of the smoothing that a standard error asks for, m.
@@ -165,50 +159,6 @@ Plane NearStepsOf(const DepthMap& depth, const Plane& sigma, const WantedSmoothi
   return Ratio(fading);
 }
 
-// Gaps of the growing kernels of a smoothing of this standard deviation, px.
-std::vector<int> GapsOf(double deviation_px) {
-  std::vector<int> gaps;
-  double variance = 0;  // beyond the usual one, px²
-  for (int growth = 0; variance < deviation_px * deviation_px; ++growth) {
-    gaps.push_back(1 << (growth / 2));
-    variance += 0.5 * gaps.back() * gaps.back();
-  }
-  return gaps;
-}
-
-// Pixels to each side that such a smoothing reads.
-int ReachOf(double deviation_px) {
-  const std::vector<int> gaps = GapsOf(deviation_px);
-  return std::accumulate(gaps.begin(), gaps.end(), 0);
-}
-
-// Pixels that each growth has to compute, so that those of `wanted` are right after the last one:
-// the pixels that still ask for smoothing, and what the next growth reads. Growths that no pixel
-// asks for are left out at the end.
-std::vector<PixelBounds> WindowsOf(const PixelBounds& wanted, const Plane& deviation,
-                                   const std::vector<int>& gaps, int width, int height) {
-  std::vector<PixelBounds> asking(gaps.size());
-  float variance = 0.0f;  // beyond the usual one, px², summed in the order of SmoothPart
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    for (int y = wanted.top; y < wanted.bottom; ++y) {
-      const float* const row =
-          deviation.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-      const auto asks = [&](float d) { return d * d - variance > 0.0f; };
-      const float* const first = std::find_if(row + wanted.left, row + wanted.right, asks);
-      if (first == row + wanted.right) continue;
-      const float* last = row + wanted.right - 1;
-      while (!asks(*last)) --last;
-      asking[i] = Joined(
-          asking[i], {static_cast<int>(first - row), y, static_cast<int>(last - row) + 1, y + 1});
-    }
-    variance += 0.5f * static_cast<float>(gaps[i]) * static_cast<float>(gaps[i]);
-  }
-  while (!asking.empty() && asking.back().is_empty()) asking.pop_back();
-  for (std::size_t i = asking.size(); i-- > 1;)
-    asking[i - 1] = Joined(asking[i - 1], Grown(asking[i], gaps[i], width, height));
-  return asking;
-}
-
 struct SmoothedPart {
   TouchedRelief touched;
   float widest = 0;  // px, of the smoothing
@@ -228,36 +178,44 @@ SmoothedPart SmoothPart(const DepthMap& depth, int passes, const DepthMap& sigma
   part.widest = *std::max_element(smoothing.deviation.begin(), smoothing.deviation.end());
   const Plane near = part.widest > 0.0f ? NearStepsOf(depth, touched.sigma, smoothing) : Plane();
 
-  PlaneMoments moments(std::move(sums.mass), std::move(sums.value), w, h, frame);
-  Plane before = touched.height;
   std::vector<int> gaps = GapsOf(static_cast<double>(part.widest));
   while (!gaps.empty() && gaps.back() >= std::max(w, h)) gaps.pop_back();
-  const std::vector<PixelBounds> windows = WindowsOf(wanted, smoothing.deviation, gaps, w, h);
-  float variance = 0.0f;  // beyond the usual one, px²
-  for (std::size_t growth = 0; growth < windows.size(); ++growth) {
+  const Plane& deviation = smoothing.deviation;
+  const std::vector<Growth> growths =
+      GrowthsOf(wanted, deviation, EvenBlocksOf(depth, near), passes, gaps, w, h);
+  std::optional<PlaneMoments> moments;
+  if (!growths.empty() && !growths.front().uneven.is_empty())
+    moments.emplace(std::move(sums.mass), sums.value, w, h, frame);
+  Plane before = touched.height, spare;
+  OuterTaps taps;
+  for (const Growth& growth : growths) {
     if (stop != nullptr && stop->load(std::memory_order_relaxed))
       throw Error(Code::kCancelled, "stopped");
-    const PixelBounds& window = windows[growth];
-    const int gap = gaps[growth];
-    const float added = 0.5f * static_cast<float>(gap) * static_cast<float>(gap);
-    const OuterTaps taps = TapsBetween(near, before, touched.sigma, w, h, gap, window);
-    WidenAll(moments.All(), w, h, gap, taps, window);
+    const PixelBounds &window = growth.window, &uneven = growth.uneven;
+    const float added = AddedVariance(growth.gap);
+    FindTaps(near, before, touched.sigma, w, h, growth.gap, window, taps);
+    WidenOnTwoThreads(sums.value, w, h, growth.gap, taps, window, spare);
+    if (!uneven.is_empty()) WidenAll(moments->All(), w, h, growth.gap, taps, uneven);
     ForRowsOnTwoThreads(window.top, window.bottom, [&](int first, int last) {
       Plane planes(static_cast<std::size_t>(window.width()));
       for (int y = first; y < last; ++y) {
-        moments.PlanesAt(y, window.left, window.right, planes.data());
-        const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
-                                  static_cast<std::size_t>(window.left);
+        const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(w);
+        // A kernel whose taps all count has the mass 1 and its centre at the pixel: the plane's
+        // height there is the mean, to the bit, since whole pixels and halves have exact sums.
+        std::copy_n(sums.value.data() + row + window.left, planes.size(), planes.data());
+        if (uneven.top <= y && y < uneven.bottom)
+          moments->PlanesAt(sums.value, y, uneven.left, uneven.right,
+                            planes.data() + (uneven.left - window.left));
+        const std::size_t begin = row + static_cast<std::size_t>(window.left);
         for (std::size_t x = 0; x < planes.size(); ++x) {
           const std::size_t i = begin + x;
-          const float rest = smoothing.deviation[i] * smoothing.deviation[i] - variance;
+          const float rest = deviation[i] * deviation[i] - growth.variance;
           if (!(rest > 0.0f)) continue;
           touched.height[i] += std::min(1.0f, rest / added) * (planes[x] - before[i]);
           before[i] = planes[x];
         }
       }
     });
-    variance += added;
   }
   return part;
 }
@@ -361,9 +319,15 @@ QuietPart WithoutNoiseAround(const DepthMap& depth, const DepthMap& sigma, const
                              const PixelBounds& changed, const std::atomic<bool>* stop) {
   const int width = depth.width, height = depth.height;
   const PixelBounds whole{0, 0, width, height};
-  bool has_every_error = sigma.relief.size() == depth.relief.size();
-  for (std::size_t i = 0; has_every_error && i < depth.relief.size(); ++i)
-    has_every_error = !std::isfinite(depth.relief[i]) || std::isfinite(sigma.relief[i]);
+  std::atomic<bool> has_every_error = sigma.relief.size() == depth.relief.size();
+  if (has_every_error)
+    ForRowsOnTwoThreads(0, height, [&](int first, int last) {
+      const auto w = static_cast<std::size_t>(width);
+      for (auto i = static_cast<std::size_t>(first) * w; i < static_cast<std::size_t>(last) * w;
+           ++i)
+        if (std::isfinite(depth.relief[i]) && !std::isfinite(sigma.relief[i]))
+          return has_every_error.store(false);
+    });
   // The standard error is smoothed over 10 px, and steps are sought over some 15 more.
   constexpr int kOfSigma = 10, kOfSteps = 16;
   for (int reach = 16; has_every_error;) {

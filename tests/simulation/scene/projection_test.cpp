@@ -105,5 +105,19 @@ TEST(Projection, GradientsAreDerivatives) {
       }
 }
 
+TEST(Projection, LongerGradientIsThatOfTheUnitDirection) {
+  Projection rolled = Gnomonic();
+  rolled.roll = 0.7;
+  for (const Projection& projection : {Gnomonic(), rolled, Equirectangular()})
+    for (double latitude : {-70.0, -10.0, 0.0, 42.0})
+      for (double longitude : {-80.0, 5.0, 60.0}) {
+        const glm::dvec3 d = Direction(latitude, longitude);
+        const glm::dmat2x3 gradients = PixelGradients(projection, d);
+        const double longer = std::max(glm::length(gradients[0]), glm::length(gradients[1]));
+        EXPECT_NEAR(LongerPixelGradient(projection, *PixelFromDirection(projection, d)), longer,
+                    1e-10 * longer);
+      }
+}
+
 }  // namespace
 }  // namespace arthro
