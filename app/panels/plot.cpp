@@ -111,15 +111,21 @@ void FitAxes(Plot& plot) {
       least = {std::min(least.x, point.x), std::min(least.y, point.y)};
       most = {std::max(most.x, point.x), std::max(most.y, point.y)};
     }
-  if (least.x > most.x) return;
+  if (least.x > most.x) {  // no value anywhere: axes that can still be drawn
+    if (!(plot.left < plot.right)) plot.left = 0, plot.right = 1;
+    if (!(plot.low < plot.high)) plot.low = 0, plot.high = 1;
+    return;
+  }
   const double spread = static_cast<double>(most.y) - static_cast<double>(least.y);
   const double below = 0.05 * std::max(1e-9, spread);
-  // A single value has no spread; its dot is not to be cut off either.
-  const double above = 0.05 * std::max(1e-9, static_cast<double>(most.y) - plot.low);
-  plot.left = std::min<double>(plot.left, least.x);
-  plot.right = std::max<double>(plot.right, most.x);
+  // Ends of a curve over the plane have dots too; over time it fills the width.
+  const double beside = plot.is_equal ? 0.05 * (double{most.x} - double{least.x}) : 0;
+  plot.left = std::min(plot.left, least.x - beside);
+  plot.right = std::max(plot.right, most.x + beside);
   plot.low = std::min(plot.low, least.y - below);
-  plot.high = std::max(plot.high, most.y + above);
+  // A single value has no spread; its dot is not to be cut off either.
+  plot.high =
+      std::max(plot.high, most.y + 0.05 * std::max(1e-9, static_cast<double>(most.y) - plot.low));
 }
 
 std::optional<double> DrawPlot(Ui& ui, const Plot& plot, const Area& area) {

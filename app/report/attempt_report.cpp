@@ -1,7 +1,5 @@
 #include "app/report/attempt_report.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "app/plot/svg_text.h"
@@ -146,12 +144,11 @@ std::string MetricsOf(const AttemptReport& report) {
 std::string EventsOf(const AttemptReport& report) {
   std::vector<Cells> rows;
   for (const EventRow& event : report.attempt.events) {
-    std::string words = event.kind;
-    std::replace(words.begin(), words.end(), '_', ' ');
     // Forces are the one value that a reader knows without its unit.
     const bool is_force = event.kind == "force_over" || event.kind == "probed";
-    rows.push_back({fmt::format("{:.2f} s", event.t), words, StepNumber(report.steps, event.step),
-                    event.target, is_force ? ValueWords(event.value, "N") : "", event.note});
+    rows.push_back({fmt::format("{:.2f} s", event.t), EventWords(event.kind),
+                    StepNumber(report.steps, event.step), event.target,
+                    is_force ? ValueWords(event.value, "N") : "", event.note});
   }
   return Table({"Time", "Event", "Step", "Target", "Force", "Note"}, rows);
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "simulation/training/attempt_words.h"
 #include "simulation/training/metrics/metrics.h"
 
 namespace arthro::app {
@@ -38,6 +39,74 @@ std::string OutcomeWords(const AttemptRecord& attempt) {
 std::string TimeWords(const std::string& utc) {
   std::string words = utc.substr(0, 16);  // "2026-11-24T02:10"
   std::ranges::replace(words, 'T', ' ');
+  return words;
+}
+
+const char* EventWords(simulation::EventKind kind) {
+  using simulation::EventKind;
+  switch (kind) {
+    case EventKind::kAttemptStart:
+      return "Begin";
+    case EventKind::kAttemptEnd:
+      return "End";
+    case EventKind::kStepStart:
+      return "Step begins";
+    case EventKind::kStepDone:
+      return "Step done";
+    case EventKind::kStepFailed:
+      return "Step failed";
+    case EventKind::kCue:
+      return "Hint";
+    case EventKind::kSeen:
+      return "Seen";
+    case EventKind::kLost:
+      return "Lost";
+    case EventKind::kProbed:
+      return "Probed";
+    case EventKind::kForceOver:
+      return "Too much force";
+    case EventKind::kZoneIn:
+      return "Zone entered";
+    case EventKind::kZoneOut:
+      return "Zone left";
+    case EventKind::kMark:
+      return "Mark";
+    case EventKind::kAnswer:
+      return "Answer";
+    case EventKind::kGrasp:
+      return "Grasped";
+    case EventKind::kDrop:
+      return "Dropped";
+    case EventKind::kPlaced:
+      return "Placed";
+    case EventKind::kBite:
+      return "Bite";
+    case EventKind::kCutOutside:
+      return "Cut outside";
+    case EventKind::kBleed:
+      return "Bleeding";
+    case EventKind::kStopped:
+      return "Stopped";
+    case EventKind::kReset:
+      return "Tissue restored";
+    case EventKind::kPause:
+      return "Pause";
+    case EventKind::kResume:
+      return "Resumed";
+    case EventKind::kLookDown:
+      return "Looked down";
+    case EventKind::kNote:
+      return "Note";
+    case EventKind::kFault:
+      return "Fault";
+  }
+  return "";
+}
+
+std::string EventWords(const std::string& kind) {
+  if (const auto known = simulation::EventKindFromString(kind)) return EventWords(*known);
+  std::string words = kind;
+  std::ranges::replace(words, '_', ' ');
   return words;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/records/attempts/attempt_record.h"
+#include "simulation/training/attempt_result.h"
 #include "simulation/training/metrics/metric_words.h"
 
 namespace arthro::app {
@@ -27,6 +28,11 @@ std::string OutcomeWords(const AttemptRecord& attempt);
 
 // "2026-11-24 02:10" of a time of the records.
 std::string TimeWords(const std::string& utc);
+
+// "Step begins", "Hint", "Too much force": the kind of an event.
+const char* EventWords(simulation::EventKind kind);
+// The same by the word in the records; one of another program is kept, its lines as blanks.
+std::string EventWords(const std::string& kind);
 
 // "more" or "less": which value of a metric is better; empty for a metric of another program.
 const char* BetterWord(const std::string& metric);

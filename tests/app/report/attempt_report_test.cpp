@@ -79,6 +79,14 @@ TEST(AttemptReport, ShowsEndsOfStepsAndFaultsInTheOrderOfTime) {
   EXPECT_EQ(MomentsOf(attempt, frames).size(), 2 + kMostFaultPictures);
 }
 
+TEST(AttemptReport, NamesEventsAsTheLookBackDoes) {
+  AttemptReport report = SampleReport();
+  report.attempt.events = {{1, "cue", "a", "", "", {}}, {2, "of_another_version", "a", "", "", {}}};
+  const std::string page = AttemptPage(report);
+  EXPECT_NE(page.find(">Hint<"), std::string::npos);
+  EXPECT_NE(page.find(">of another version<"), std::string::npos);
+}
+
 TEST(AttemptReport, HoldsItsPicturesAndTheExpertsValuesItself) {
   AttemptReport report = SampleReport();
   report.pictures = {{{1.5, "s<1>: done", false}, "\xff\xd8\xff"}, {{2, "drop", true}, "Ma"}};

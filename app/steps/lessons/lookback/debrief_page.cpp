@@ -28,66 +28,6 @@ using simulation::EventKind;
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t kMostPoints = 2000;  // points in a curve; more than a figure has pixels
 
-const char* EventWords(EventKind kind) {
-  switch (kind) {
-    case EventKind::kAttemptStart:
-      return "Begin";
-    case EventKind::kAttemptEnd:
-      return "End";
-    case EventKind::kStepStart:
-      return "Step begins";
-    case EventKind::kStepDone:
-      return "Step done";
-    case EventKind::kStepFailed:
-      return "Step failed";
-    case EventKind::kCue:
-      return "Cue";
-    case EventKind::kSeen:
-      return "Seen";
-    case EventKind::kLost:
-      return "Lost";
-    case EventKind::kProbed:
-      return "Probed";
-    case EventKind::kForceOver:
-      return "Too much force";
-    case EventKind::kZoneIn:
-      return "Zone entered";
-    case EventKind::kZoneOut:
-      return "Zone left";
-    case EventKind::kMark:
-      return "Mark";
-    case EventKind::kAnswer:
-      return "Answer";
-    case EventKind::kGrasp:
-      return "Grasped";
-    case EventKind::kDrop:
-      return "Dropped";
-    case EventKind::kPlaced:
-      return "Placed";
-    case EventKind::kBite:
-      return "Bite";
-    case EventKind::kCutOutside:
-      return "Cut outside";
-    case EventKind::kBleed:
-      return "Bleeding";
-    case EventKind::kStopped:
-      return "Stopped";
-    case EventKind::kReset:
-      return "Tissue restored";
-    case EventKind::kPause:
-      return "Pause";
-    case EventKind::kResume:
-      return "Resumed";
-    case EventKind::kLookDown:
-      return "Looked down";
-    case EventKind::kNote:
-      return "Note";
-    case EventKind::kFault:
-      return "Fault";
-  }
-  return "";
-}
-
 // Largest of each run of frames, so that a short peak is not lost; NaN where none has a value.
 template <class ValueOf>
 PlotCurve CurveOf(const std::vector<AttemptFrame>& frames, const ValueOf& value_of) {
