@@ -36,6 +36,7 @@ using State = EditorState;
 
 template <Step step>
 void Open(State& state) {
+  if (state.step != step) state.message.clear();  // it spoke of the page before
   state.step = step;
   HideStartPage(state);
 }

@@ -30,6 +30,7 @@ std::vector<MissingPart> MissingParts(const EditorState& state) {
 
 void GoToMissingPart(EditorState& state, const MissingPart& part) {
   state.step = part.step;
+  state.message.clear();
   if (part.tissue >= 0) state.tissue = part.tissue;
   if (part.page) state.steps.tissue->page = *part.page;
 }

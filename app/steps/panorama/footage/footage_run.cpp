@@ -254,8 +254,10 @@ void UseMadePanorama(EditorState& state) {
   if (made.is_measured()) return UseRelief(state, *made.relief);
   state.step = Step::kDepth;
   if (state.document().panorama == made.picture) return;  // it is the backdrop already
-  SetPanorama(state, "Use the panorama of " + state.steps.panorama->footage->name, made.picture,
-              made.projection, made.report.lens, made.report.is_lens_guessed);
+  const std::string& clip = state.steps.panorama->footage->name;
+  SetPanorama(state, "Use the panorama of " + clip, made.picture, made.projection, made.report.lens,
+              made.report.is_lens_guessed);
+  state.message = "The panorama of " + clip + " is the backdrop now.";
   AmendRecord(state);
 }
 
