@@ -10,7 +10,7 @@ void AskForPanorama(Ui& ui, EditorState& state, const std::string& reason) {
     Text(ui, "The panorama that was made from the footage is not in the scene yet.");
     CommandButton(ui, state, "use-panorama", {-FLT_MIN, 0});
   } else if (Button(ui, "Take me there", true, {-FLT_MIN, 0}, "Open the Panorama step.")) {
-    state.step = Step::kPanorama;
+    Run(state, "step-panorama");
   }
 }
 
