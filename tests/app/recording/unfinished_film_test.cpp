@@ -96,12 +96,13 @@ std::vector<fs::path> FilesIn(const fs::path& folder) {
   return files;
 }
 
-// 33 dB tells one picture from the next (video_file_test.cpp).
-void ExpectBeginsWithFrames(const fs::path& file, int at_least) {
+// 33 dB tells one picture from the next (video_file_test.cpp). The last `torn` pictures may be cut
+// off.
+void ExpectBeginsWithFrames(const fs::path& file, int at_least, std::size_t torn = 0) {
   const auto [info, frames] = test::ReadFilm(file);
   EXPECT_NEAR(info.frames_per_second, kRate, 1e-3);
   EXPECT_GE(static_cast<int>(frames.size()), at_least) << file;
-  for (std::size_t i = 0; i < frames.size(); ++i)
+  for (std::size_t i = 0; i + torn < frames.size(); ++i)
     EXPECT_GT(test::LumaPsnr(frames[i], Frame(static_cast<int>(i))), 33.0) << file << " " << i;
 }
 
@@ -117,8 +118,9 @@ TEST_P(UnfinishedFilms, AreWholeToTheLastSecondWhateverEndedTheProgram) {
     const std::vector<fs::path> left = FilesIn(folder.path());
     ASSERT_EQ(left.size(), 1u) << signal;
     EXPECT_NE(left[0].filename().string().find(".recording."), std::string::npos) << left[0];
-    // The file stays as it is, for whoever finds it first.
-    ExpectBeginsWithFrames(left[0], given - kPerSecond);
+    // The file stays as it is, for whoever finds it first. A kill may cut a write between two
+    // pages, and a decoder draws what it has of that picture; the finished film is without it.
+    ExpectBeginsWithFrames(left[0], given - kPerSecond, 1);
 
     const std::vector<std::string> said = FinishFilmsIn(folder.path());
     ASSERT_EQ(said.size(), 1u);
