@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <initializer_list>
 
 #include <imgui.h>
 
@@ -17,11 +16,21 @@ constexpr ImWchar kRanges[] = {0x0020, 0x024F, 0x0370, 0x03FF, 0x0400, 0x04FF,
                                0x25A0, 0x25FF, 0x2713, 0x2717, 0};
 constexpr ImWchar kDigitRanges[] = {0x0020, 0x00FF, 0x2013, 0x2014, 0};
 
-ImFont* AddFont(std::initializer_list<const char*> files, double size, const ImWchar* ranges) {
-  for (const char* file : files)
-    if (std::filesystem::exists(file))
-      return ImGui::GetIO().Fonts->AddFontFromFileTTF(file, static_cast<float>(std::round(size)),
-                                                      nullptr, ranges);
+// Signs that ImGui's own font lacks, and the nearest that it has.
+constexpr struct {
+  ImWchar sign, nearest;
+} kNearestSigns[] = {{0x2026, 0x85}, {0x2212, '-'},  {0x2010, '-'},  {0x2011, '-'}, {0x2013, '-'},
+                     {0x2014, '-'},  {0x2018, '\''}, {0x2019, '\''}, {0x201C, '"'}, {0x201D, '"'},
+                     {0x201E, '"'},  {0x2192, '>'},  {0x2190, '<'},  {0x2264, '<'}, {0x2265, '>'},
+                     {0x2022, 0xB7}, {0x2717, 'x'},  {0x25CB, 'o'}};
+
+// Null where no folder has the file.
+ImFont* AddFont(std::span<const std::filesystem::path> folders, const char* name, double size,
+                const ImWchar* ranges) {
+  for (const auto& folder : folders)
+    if (const auto file = folder / name; std::filesystem::exists(file))
+      return ImGui::GetIO().Fonts->AddFontFromFileTTF(
+          file.c_str(), static_cast<float>(std::round(size)), nullptr, ranges);
   return nullptr;
 }
 
@@ -109,22 +118,28 @@ void ColourLight(ImVec4* c) {
 
 }  // namespace
 
-Fonts BuildFonts(double scale) {
+std::span<const std::filesystem::path> FontFolders() {
+  static const std::filesystem::path folders[] = {
+      "/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu",
+      "/usr/share/fonts/dejavu-sans-fonts", "/usr/share/fonts/TTF"};
+  return folders;
+}
+
+Fonts BuildFonts(double scale, std::span<const std::filesystem::path> folders) {
   ImGui::GetIO().Fonts->Clear();
-  const auto regular = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                        "/usr/share/fonts/dejavu/DejaVuSans.ttf",
-                        "/usr/share/fonts/TTF/DejaVuSans.ttf"};
-  const auto bold = {"/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf",
-                     "/usr/share/fonts/dejavu/DejaVuSans-Bold.ttf",
-                     "/usr/share/fonts/TTF/DejaVuSans-Bold.ttf"};
+  constexpr const char *kRegular = "DejaVuSans.ttf", *kBold = "DejaVuSans-Bold.ttf";
   Fonts fonts;
-  fonts.text = AddFont(regular, kTextSize * scale, kRanges);
-  fonts.has_signs = fonts.text != nullptr;
-  if (!fonts.text) fonts.text = AddOwnFont(kTextSize * scale);
-  fonts.heading = AddFont(bold, kHeadingSize * scale, kRanges);
+  fonts.text = AddFont(folders, kRegular, kTextSize * scale, kRanges);
+  const bool has_signs = fonts.text != nullptr;
+  if (!has_signs) fonts.text = AddOwnFont(kTextSize * scale);
+  fonts.heading = AddFont(folders, kBold, kHeadingSize * scale, kRanges);
   if (!fonts.heading) fonts.heading = fonts.text;
-  fonts.large = AddFont(bold, kLargeSize * scale, kDigitRanges);
+  fonts.large = AddFont(folders, kBold, kLargeSize * scale, kDigitRanges);
   if (!fonts.large) fonts.large = AddOwnFont(kLargeSize * scale);
+  if (!has_signs) {
+    ImGui::GetIO().Fonts->Build();
+    for (const auto& [sign, nearest] : kNearestSigns) fonts.text->AddRemapChar(sign, nearest);
+  }
   return fonts;
 }
 

@@ -1,7 +1,11 @@
 // Fonts and colours: a calm dark and a light theme, text at 15 px a unit of content scale, contrast
 // of text to ground at least 7:1. Fonts are the system's DejaVu Sans, which has Greek, arrows and
-// the signs that the panels use; without it ImGui's own font stands in and the signs show as "?".
+// the signs that the panels use. Without it ImGui's own font stands in: dots, dashes, quotes and
+// arrows show as the nearest sign that it has, Greek as "?".
 #pragma once
+
+#include <filesystem>
+#include <span>
 
 struct ImFont;
 
@@ -11,11 +15,13 @@ struct Fonts {
   ImFont* text = nullptr;
   ImFont* heading = nullptr;  // bold
   ImFont* large = nullptr;    // numbers of practice, readable from arm's length
-  bool has_signs = false;     // Greek, arrows, …
 };
 
+// Folders in which systems keep DejaVu Sans.
+std::span<const std::filesystem::path> FontFolders();
+
 // Fills ImGui's font atlas anew; the caller gives the texture to OpenGL.
-Fonts BuildFonts(double scale);
+Fonts BuildFonts(double scale, std::span<const std::filesystem::path> folders = FontFolders());
 
 enum class Theme { kDark, kLight };
 
