@@ -168,6 +168,7 @@ void DeformableBody::Impl::LeaveUnsolved(std::span<const WorldTool> tools, doubl
 void DeformableBody::Impl::AddCoupling(int tool, std::span<const ContactPoint> of_tools,
                                        std::span<const ContactResult> of_results,
                                        ToolCoupling& coupling) noexcept {
+  if (placed[static_cast<std::size_t>(tool)].has_slipped) return;
   const auto [normal, size] = PushOf(of_tools, of_results, tool);
   if (normal == glm::dvec3(0.0)) return;
   const SkinContact& on_skin = shape->skin_contact;
@@ -256,8 +257,14 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
     return report;
   }
   own.MoveSkin();
-  for (std::size_t i = 0; i < own.tool_count; ++i)
-    UpdateGrip(own.contacts, results, static_cast<int>(i), own.options.contact, own.placed[i].grip);
+  for (std::size_t i = 0; i < own.tool_count; ++i) {
+    PlacedTool& tool = own.placed[i];
+    const auto owner = static_cast<int>(i);
+    UpdateGrip(own.contacts, results, owner, own.options.contact, tool.grip);
+    tool.has_slipped =
+        HasSlippedOff(tool.Capsules(), own.contacts, results, owner, own.options.contact);
+    if (tool.has_slipped) tool.grip = ToolGrip{};
+  }
   for (const glm::dvec3& v : own.state.v)
     report.max_speed = std::max(report.max_speed, glm::length(v));
   if (++own.since_good >= kGoodEvery && report.step.inverted == 0) {

@@ -56,6 +56,7 @@ struct PlacedTool {
   std::array<Capsule, kMaxCapsules> capsules;
   int count = 0;
   bool was_present = false;
+  bool has_slipped = false;  // off the tissue in the last step, which tells no force of it
   ToolKind kind = ToolKind::kNone;
   glm::dvec3 tip{0.0}, motion{0.0};
   ToolGrip grip;

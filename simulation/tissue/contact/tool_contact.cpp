@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/finite.h"
+#include "simulation/core/geometry/segment3.h"
 
 namespace arthro::simulation {
 namespace {
@@ -304,6 +305,37 @@ void SkinContact::Find(std::span<const Capsule> capsules, const glm::dvec3& moti
     contact.radius = capsule.radius;
     add(contact);
   }
+}
+
+namespace {
+
+// Returns the distance of a point to the nearest capsule; negative inside.
+double GapTo(std::span<const Capsule> capsules, const glm::dvec3& x) noexcept {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const Capsule& capsule : capsules)
+    gap = std::min(
+        gap, std::sqrt(Distance2(Segment3{x, x}, Segment3{capsule.a, capsule.b})) - capsule.radius);
+  return gap;
+}
+
+}  // namespace
+
+bool HasSlippedOff(std::span<const Capsule> capsules, std::span<const ContactPoint> contacts,
+                   std::span<const ContactResult> results, int owner,
+                   const ToolContactOptions& options) noexcept {
+  const std::size_t count = std::min(contacts.size(), results.size());
+  glm::dvec3 force(0.0);
+  for (std::size_t i = 0; i < count; ++i)
+    if (contacts[i].owner == owner) force -= results[i].force;
+  const glm::dvec3 offset = force / options.stiffness;
+  double near = 0.0, away = 0.0;  // N
+  for (std::size_t i = 0; i < count; ++i) {
+    if (contacts[i].owner != owner) continue;
+    const double commanded = GapTo(capsules, results[i].point),
+                 held = GapTo(capsules, results[i].point - offset);
+    (held > std::max(kLongestWatch, commanded) ? away : near) += glm::length(results[i].push);
+  }
+  return away > near;
 }
 
 void UpdateGrip(std::span<const ContactPoint> contacts, std::span<const ContactResult> results,

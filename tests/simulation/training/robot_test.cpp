@@ -1,6 +1,6 @@
 // Robots at the exercises of the demo scene, as they are installed: an expert passes each of them;
 // a novice with a planted fault misses exactly the criteria that name the fault; each attempt has
-// the same result from its log. ARTHRO_ROBOT_SEEDS=20 tries experts with the seeds 1 to 20.
+// the same result from its log. ARTHRO_ROBOT_SEEDS=20 tries both with the seeds 1 to 20.
 #include "simulation/training/robot/robot.h"
 
 #include <algorithm>
@@ -106,12 +106,15 @@ std::string NameOf(const testing::TestParamInfo<Attempt>& info) {
   return name;
 }
 
+int Seeds() {
+  const char* asked = std::getenv("ARTHRO_ROBOT_SEEDS");
+  return asked == nullptr ? 1 : std::max(1, std::atoi(asked));
+}
+
 class RobotExpert : public testing::TestWithParam<Attempt> {};
 
 TEST_P(RobotExpert, PassesTheShippedExercise) {
-  const char* asked = std::getenv("ARTHRO_ROBOT_SEEDS");
-  const int seeds = asked == nullptr ? 1 : std::max(1, std::atoi(asked));
-  for (int seed = 1; seed <= seeds; ++seed) {
+  for (int seed = 1; seed <= Seeds(); ++seed) {
     RobotOptions options;
     options.seed = seed;
     const RobotRun run = RunWithLog(ExerciseOf(GetParam().exercise), options);
@@ -141,18 +144,23 @@ bool IsInStep(RobotFault fault) {
 class RobotNovice : public testing::TestWithParam<Attempt> {};
 
 TEST_P(RobotNovice, MissesExactlyTheCriteriaThatNameItsFault) {
-  RobotOptions options;
-  options.fault = GetParam().fault;
-  const RobotRun run = RunWithLog(ExerciseOf(GetParam().exercise), options);
-  fmt::print("{} {}: {} after {:.1f} s {}\n", GetParam().exercise, ToString(options.fault),
-             ToString(run.result.outcome), run.result.duration, run.result.reason);
-  EXPECT_NE(run.result.outcome, AttemptOutcome::kPassed);
-  // All but the criteria is as in a pass, unless the fault is in a step.
-  for (const StepResult& step : run.result.steps)
-    if (!IsInStep(options.fault)) {
-      EXPECT_EQ(step.outcome, StepOutcome::kDone) << step.id << "\n" << Troubles(run);
-    }
-  EXPECT_EQ(Missed(run.result), GetParam().missed) << Troubles(run);
+  for (int seed = 1; seed <= Seeds(); ++seed) {
+    RobotOptions options;
+    options.fault = GetParam().fault;
+    options.seed = seed;
+    const RobotRun run = RunWithLog(ExerciseOf(GetParam().exercise), options);
+    fmt::print("{} {} seed {}: {} after {:.1f} s {}\n", GetParam().exercise,
+               ToString(options.fault), seed, ToString(run.result.outcome), run.result.duration,
+               run.result.reason);
+    EXPECT_NE(run.result.outcome, AttemptOutcome::kPassed) << "seed " << seed;
+    // All but the criteria is as in a pass, unless the fault is in a step.
+    for (const StepResult& step : run.result.steps)
+      if (!IsInStep(options.fault)) {
+        EXPECT_EQ(step.outcome, StepOutcome::kDone) << "seed " << seed << " " << step.id << "\n"
+                                                    << Troubles(run);
+      }
+    EXPECT_EQ(Missed(run.result), GetParam().missed) << "seed " << seed << "\n" << Troubles(run);
+  }
 }
 
 using enum RobotFault;

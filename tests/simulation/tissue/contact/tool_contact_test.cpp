@@ -271,6 +271,27 @@ TEST(SkinContact, HeldToolStaysOnItsSideOfThinTissue) {
   EXPECT_LT(z, -0.012) << "the hand is far beyond the tissue";
 }
 
+// A push that would carry the tool to where it does not touch the points that push it: 38 N of a
+// probe that slipped off a meniscus, where the skin holds 5 N.
+TEST(SkinContact, PushFromPointsThatTheToolHasLeftIsASlip) {
+  const Slab slab(0.0015);
+  const Capsule rod{{0.001, 0.0003, -0.004}, {0.001, 0.0003, 0.016}, kRadius};
+  ToolGrip grip;
+  grip.offset = {0, 0, 0.004 + kRadius}, grip.count = 1, grip.normal[0] = {0, 0, 1};
+  const auto contacts = slab.Find(std::span(&rod, 1), glm::dvec3(0.0), &grip);
+  std::vector<ContactResult> results;
+  slab.HeldBy(contacts, results);
+  const auto slipped = [&] {
+    return HasSlippedOff(std::span(&rod, 1), contacts, results, 0, slab.options);
+  };
+  EXPECT_FALSE(slipped()) << "held at the skin";
+  for (ContactResult& result : results) result.force *= 20.0, result.push *= 20.0;
+  EXPECT_TRUE(slipped());
+  for (ContactResult& result : results) result.force = result.push = glm::dvec3(0.0);
+  EXPECT_FALSE(slipped()) << "nothing pushes";
+  EXPECT_FALSE(HasSlippedOff({}, {}, {}, 0, slab.options));
+}
+
 TEST(SkinContact, HeldToolSlidesAlongTheSkin) {
   const Slab slab;
   ToolGrip grip;
