@@ -261,8 +261,7 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
     PlacedTool& tool = own.placed[i];
     const auto owner = static_cast<int>(i);
     UpdateGrip(own.contacts, results, owner, own.options.contact, tool.grip);
-    tool.has_slipped =
-        HasSlippedOff(tool.Capsules(), own.contacts, results, owner, own.options.contact);
+    tool.has_slipped = HasSlippedOff(tool.Capsules(), own.contacts, results, owner, tool.grip);
     if (tool.has_slipped) tool.grip = ToolGrip{};
   }
   for (const glm::dvec3& v : own.state.v)

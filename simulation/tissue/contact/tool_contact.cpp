@@ -322,18 +322,15 @@ double GapTo(std::span<const Capsule> capsules, const glm::dvec3& x) noexcept {
 
 bool HasSlippedOff(std::span<const Capsule> capsules, std::span<const ContactPoint> contacts,
                    std::span<const ContactResult> results, int owner,
-                   const ToolContactOptions& options) noexcept {
+                   const ToolGrip& grip) noexcept {
   const std::size_t count = std::min(contacts.size(), results.size());
-  glm::dvec3 force(0.0);
-  for (std::size_t i = 0; i < count; ++i)
-    if (contacts[i].owner == owner) force -= results[i].force;
-  const glm::dvec3 offset = force / options.stiffness;
   double near = 0.0, away = 0.0;  // N
   for (std::size_t i = 0; i < count; ++i) {
-    if (contacts[i].owner != owner) continue;
+    const double push = glm::length(results[i].push);
+    if (contacts[i].owner != owner || !(push > 0.0)) continue;
     const double commanded = GapTo(capsules, results[i].point),
-                 held = GapTo(capsules, results[i].point - offset);
-    (held > std::max(kLongestWatch, commanded) ? away : near) += glm::length(results[i].push);
+                 held = GapTo(capsules, results[i].point - grip.offset);
+    (held > std::max(kLongestWatch, commanded) ? away : near) += push;
   }
   return away > near;
 }

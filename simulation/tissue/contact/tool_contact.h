@@ -132,10 +132,10 @@ class SkinContact {
 // Returns true where the points that push the tool lie away from it as they would hold it, and
 // further than from the commanded tool: a tool that slips off crosses tissue in a step, and a
 // contact is linear from where it was found. Such a push may be ten times what the skin can give.
-// `capsules` are at the commanded pose; arguments else as in UpdateGrip.
+// `capsules` are at the commanded pose, `grip` is that of UpdateGrip, arguments else as there.
 bool HasSlippedOff(std::span<const Capsule> capsules, std::span<const ContactPoint> contacts,
                    std::span<const ContactResult> results, int owner,
-                   const ToolContactOptions& options) noexcept;
+                   const ToolGrip& grip) noexcept;
 
 // Stores how the tissue holds the tool after the step. `contacts` and `results` are those of the
 // step; other owners' contacts are ignored.

@@ -282,14 +282,15 @@ TEST(SkinContact, PushFromPointsThatTheToolHasLeftIsASlip) {
   std::vector<ContactResult> results;
   slab.HeldBy(contacts, results);
   const auto slipped = [&] {
-    return HasSlippedOff(std::span(&rod, 1), contacts, results, 0, slab.options);
+    UpdateGrip(contacts, results, 0, slab.options, grip);
+    return HasSlippedOff(std::span(&rod, 1), contacts, results, 0, grip);
   };
   EXPECT_FALSE(slipped()) << "held at the skin";
   for (ContactResult& result : results) result.force *= 20.0, result.push *= 20.0;
   EXPECT_TRUE(slipped());
   for (ContactResult& result : results) result.force = result.push = glm::dvec3(0.0);
   EXPECT_FALSE(slipped()) << "nothing pushes";
-  EXPECT_FALSE(HasSlippedOff({}, {}, {}, 0, slab.options));
+  EXPECT_FALSE(HasSlippedOff({}, {}, {}, 0, grip));
 }
 
 TEST(SkinContact, HeldToolSlidesAlongTheSkin) {
