@@ -2,6 +2,8 @@
 // was done. With an exercise: its steps, criteria and metrics, as while it ran; without: numbers of
 // the recorded hands alone.
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -162,8 +164,23 @@ AttemptReport AssessHands(const AssessJob& job, const LoadedScene& loaded,
   return report;
 }
 
+// Names the two inputs where they are given in the wrong order.
+void CheckOrder(const AssessJob& job) {
+  std::string start(16, '\0');  // enough to tell a log
+  std::error_code unreadable;
+  const bool is_file = fs::is_regular_file(job.scene, unreadable);
+  if (is_file) std::ifstream(job.scene, std::ios::binary).read(start.data(), std::ssize(start));
+  if (simulation::IsDeviceLog(start))
+    throw Error(Code::kBadArgument, "this is an attempt or recorded hands; give the scene first",
+                job.scene);
+  if (fs::is_directory(job.attempt, unreadable))
+    throw Error(Code::kBadArgument, "this is a folder and no attempt; give the scene first",
+                job.attempt);
+}
+
 void Run(const AssessJob& job) {
   CheckOptions(job.options);
+  CheckOrder(job);
   if (job.exercise.empty() && (job.requires_pass || job.observes_anew || !job.group.empty()))
     throw Error(Code::kBadArgument,
                 "--require-pass, --reobserve and --reference are about an exercise; give "

@@ -208,6 +208,13 @@ TEST_F(AssessJob, AnUnknownExerciseIsRefusedWithThoseThatThereAre) {
                 "centre-and-hold, telescope, periscope-30");
 }
 
+TEST_F(AssessJob, ASceneAndAnAttemptTheOtherWayRoundAreNamed) {
+  for (const std::string& flags : {std::string(), "--json " + Out("out.json")}) {
+    ExpectRefused(Assess(Passed(), Demo(), flags), "give the scene first");
+    ExpectRefused(Assess(Demo(), Demo(), flags), "is a folder and no attempt");
+  }
+}
+
 TEST_F(AssessJob, AnotherExerciseThanThatOfTheAttemptIsRefused) {
   ExpectRefused(Assess(Demo(), Passed(), "--exercise track --json " + Out("out.json")),
                 "give --exercise telescope");
