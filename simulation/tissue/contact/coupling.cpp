@@ -23,6 +23,10 @@ constexpr double kLongestHold = 0.02;  // m
 // has left.
 constexpr double kBendReach = 2.5e-3;  // m
 
+// Times the friction of one contact, from which a tool is wedged. Contacts around a tool that
+// slides through a dent have a little more than one contact.
+constexpr double kWedged = 2.0;
+
 constexpr double kSilence = 0.1, kFade = 0.05;  // s [method.md, Tissue coupling]
 
 // Returns |P| at the depth x.
@@ -87,14 +91,20 @@ bool IsFinite(const ToolCoupling& coupling) noexcept {
 BodyPush PushOf(std::span<const ContactPoint> contacts, std::span<const ContactResult> results,
                 int owner) noexcept {
   const std::size_t count = std::min(contacts.size(), results.size());
-  glm::dvec3 push(0.0);
+  glm::dvec3 push(0.0), force(0.0);
+  double friction = 0.0;
   std::size_t nearest = count;
   for (std::size_t i = 0; i < count; ++i) {
     if (contacts[i].owner != owner) continue;
     if (nearest == count || results[i].gap < results[nearest].gap) nearest = i;
     push -= results[i].push;
+    force -= results[i].force;
+    friction = std::max(friction, contacts[i].friction);
   }
   if (nearest == count) return {};
+  // A wedged tool: its contacts push against one another, with more friction than one contact of
+  // this push can have.
+  if (glm::distance(force, push) > kWedged * friction * glm::length(push)) push = force;
   const double size = glm::length(push);
   return {size > 0.0 ? push / size : -contacts[nearest].normal, size};
 }
@@ -106,12 +116,12 @@ void AddContacts(std::span<const ContactPoint> contacts, std::span<const Contact
   const auto [normal, size] = PushOf(contacts, results, owner);
   if (normal == glm::dvec3(0.0)) return;
   TissueContact contact;
-  glm::dvec3 rub(0.0);
+  glm::dvec3 rub = -size * normal;
   double gap = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < count; ++i) {
     if (contacts[i].owner != owner) continue;
     gap = std::min(gap, results[i].gap);
-    rub -= results[i].force - results[i].push;
+    rub -= results[i].force;
     contact.friction = contacts[i].friction;
   }
   const double stiffness = skin.stiffness;

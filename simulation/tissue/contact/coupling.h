@@ -63,7 +63,8 @@ struct BodyPush {
   glm::dvec3 direction{0.0};  // unit; zero: no contact
   double size = 0;            // N
 };
-// Sums the contacts of a tool; the arguments are those of AddContacts.
+// Sums the contacts of a tool; the arguments are those of AddContacts. A tool wedged between
+// contacts has the whole force of the step as its push, for its rub T₀ would exceed μ |P|.
 BodyPush PushOf(std::span<const ContactPoint> contacts, std::span<const ContactResult> results,
                 int owner) noexcept;
 

@@ -209,6 +209,33 @@ TEST(Coupling, FrictionIsLimitedByTheNormalForce) {
   }
 }
 
+// The contacts of a wedge push by 1000 N against one another, and their friction bears most of what
+// is left. The servo must feel the small sum of the step, not the pushes without their friction.
+TEST(Coupling, AWedgedToolFeelsTheForceOfTheStep) {
+  constexpr double kFriction = 0.03;
+  std::array<ContactPoint, 2> contacts;
+  std::array<ContactResult, 2> results;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const glm::dvec3 push = 500.0 * glm::normalize(glm::dvec3(i == 0 ? 1 : -1, 0, 0.033));
+    contacts[i].owner = 3;
+    contacts[i].friction = kFriction;
+    contacts[i].normal = -glm::normalize(push);
+    results[i].push = -push;
+    const glm::dvec3 down(i == 0 ? 0.033 : -0.033, 0, -1);
+    results[i].force = -(push + kFriction * 500.0 * glm::normalize(down));
+  }
+  const glm::dvec3 step = -(results[0].force + results[1].force);
+  ASSERT_GT(glm::length(results[0].push + results[1].push), 30.0);
+  ASSERT_LT(glm::length(step), 4.0);
+  ToolCoupling coupling;
+  AddContacts(contacts, results, 3, {300.0}, kSpring, {1, 0, 0, 0}, 5, coupling);
+  EXPECT_LT(glm::distance(ForceOf(coupling, coupling.tip).force, step), 1e-9);
+  for (const double way : {1e-4, 1e-3, 7e-3})  // no faster than the spring, whatever the way
+    for (const glm::dvec3& along : {glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1)})
+      EXPECT_LT(glm::length(ForceOf(coupling, way * along).force),
+                glm::length(step) + kSpring * way);
+}
+
 // For any external stiffness the servo's force grows no faster than the spring and never pulls.
 TEST(Coupling, StiffnessThatCouldAddEnergyIsClamped) {
   Random random(16);
