@@ -264,11 +264,8 @@ LandmarkAlignment AlignLandmarks(std::span<const LandmarkPair> pairs, const Pose
   }
   const auto end = [&](AlignVerdict verdict) {
     alignment.verdict = verdict;
-    DescribeAlignment(pairs, model_size, alignment);
-    if (solves_scale && verdict == AlignVerdict::kInconsistent)
-      alignment.sentence =
-          "No majority of the pairs agrees on one pose, of whatever scale; check each pair, or add "
-          "more.";
+    DescribeAlignment(pairs, model_size, solves_scale ? std::nullopt : std::optional(present.scale),
+                      alignment);
     return alignment;
   };
   if (terms.size() < 3) return end(AlignVerdict::kTooFew);

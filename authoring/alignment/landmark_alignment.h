@@ -80,9 +80,10 @@ LandmarkAlignment AlignLandmarks(std::span<const LandmarkPair> pairs, const Pose
 // Standard deviations of the model points along their principal axes, largest first; m.
 glm::dvec3 SpreadOf(std::span<const glm::dvec3> points);
 
-// Sentences on wrong pairs, collinear or clustered landmarks, ranges that are guessed and pairs
-// that nothing checks. Fills `warnings` and `sentence` of a result that is complete otherwise.
+// Sentences on wrong pairs, collinear or clustered landmarks, ranges that are guessed, pairs that
+// nothing checks, and the two that contradict each other most where no pose fits. Fills `warnings`
+// and `sentence` of a result that is complete otherwise. `kept_scale`: nothing where it was solved.
 void DescribeAlignment(std::span<const LandmarkPair> pairs, double model_size,
-                       LandmarkAlignment& alignment);
+                       std::optional<double> kept_scale, LandmarkAlignment& alignment);
 
 }  // namespace arthro::authoring

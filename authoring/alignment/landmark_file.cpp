@@ -59,7 +59,7 @@ std::string PairsSchemaText() {
 }
 
 std::vector<LandmarkPair> PairsInScene(const PairsFile& pairs, const LoadedScene& scene,
-                                       const std::filesystem::path& file) {
+                                       ReliefOrigin unstated, const std::filesystem::path& file) {
   std::vector<LandmarkPair> found;
   for (std::size_t i = 0; i < pairs.pairs.size(); ++i) {
     const PairInFile& pair = pairs.pairs[i];
@@ -78,7 +78,7 @@ std::vector<LandmarkPair> PairsInScene(const PairsFile& pairs, const LoadedScene
       refuse("the pixel is outside of the panorama; mend it");
     const std::optional<Sight> sight = SightOf(pair, scene);
     if (!sight) refuse("the pixel is outside of the scope's round picture; mend it");
-    const std::optional<ScenePoint> point = PointOnRelief(scene, *sight);
+    const std::optional<ScenePoint> point = PointOnRelief(scene, *sight, unstated);
     if (!point)
       refuse("nothing was imaged there, so its distance is not known; choose another place");
     now.scene = *point;

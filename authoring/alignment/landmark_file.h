@@ -82,8 +82,9 @@ PairsFile ReadPairs(const std::filesystem::path& file);
 std::string PairsSchemaText();
 
 // The pairs with the places of their partners. Throws Error(kBadData) for a partner where nothing
-// was imaged, or outside its picture.
+// was imaged, or outside its picture. `unstated`: as for PointOnRelief.
 std::vector<LandmarkPair> PairsInScene(const PairsFile& pairs, const LoadedScene& scene,
+                                       ReliefOrigin unstated,
                                        const std::filesystem::path& file = {});
 
 }  // namespace arthro::authoring

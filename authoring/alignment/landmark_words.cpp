@@ -1,6 +1,7 @@
 // Sentences on the result of an alignment by landmarks.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -15,12 +16,14 @@ namespace {
 // rotation is poorly known: 0.15 multiplies its error about the line by more than six.
 constexpr double kNearlyCollinear = 0.15, kClustered = 0.25;
 
+constexpr double kLeastContradiction = 0.5e-3;  // m, between two distances
+
 std::string NameOf(std::span<const LandmarkPair> pairs, std::size_t i) {
   return pairs[i].name.empty() ? fmt::format("Pair {}", i + 1)
                                : fmt::format("Pair {} ({})", i + 1, pairs[i].name);
 }
 
-std::string SentenceOf(AlignVerdict verdict) {
+std::string SentenceOf(AlignVerdict verdict, bool keeps_scale) {
   switch (verdict) {
     case AlignVerdict::kAligned:
       return "The landmarks determine the pose.";
@@ -29,10 +32,32 @@ std::string SentenceOf(AlignVerdict verdict) {
     case AlignVerdict::kCollinear:
       return "The landmarks lie on one line, so the turn about it is not known; add one beside it.";
     case AlignVerdict::kInconsistent:
-      return "No majority of the pairs agrees on one pose; check each pair, or solve for the "
-             "scale.";
+      return keeps_scale
+                 ? "No majority of the pairs agrees on one pose; check each pair, or solve for the "
+                   "scale."
+                 : "No majority of the pairs agrees on one pose, of whatever scale; check each "
+                   "pair, or add more.";
   }
   return {};
+}
+
+// The two pairs whose distance differs most between the model and the scene. Nothing where each
+// distance agrees: a mirrored model.
+std::optional<std::string> ContradictionOf(std::span<const LandmarkPair> pairs, double scale) {
+  std::optional<std::string> words;
+  double largest = kLeastContradiction;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    for (std::size_t j = i + 1; j < pairs.size(); ++j) {
+      if (pairs[i].is_left_out || pairs[j].is_left_out) continue;
+      const double model = scale * glm::distance(pairs[i].x_in_tissue, pairs[j].x_in_tissue);
+      const double scene = glm::distance(pairs[i].scene.x_in_portal, pairs[j].scene.x_in_portal);
+      if (!(std::abs(scene - model) > largest)) continue;
+      largest = std::abs(scene - model);
+      words = fmt::format(
+          "The landmarks {} and {} are {:.1f} mm apart on the model, but {:.1f} mm in the scene.",
+          i + 1, j + 1, MmFromMetres(model), MmFromMetres(scene));
+    }
+  return words;
 }
 
 }  // namespace
@@ -52,10 +77,12 @@ const char* ToString(AlignVerdict verdict) {
 }
 
 void DescribeAlignment(std::span<const LandmarkPair> pairs, double model_size,
-                       LandmarkAlignment& alignment) {
-  alignment.sentence = SentenceOf(alignment.verdict);
-  if (!alignment.is_aligned()) return;
+                       std::optional<double> kept_scale, LandmarkAlignment& alignment) {
+  alignment.sentence = SentenceOf(alignment.verdict, kept_scale.has_value());
   auto& warnings = alignment.warnings;
+  if (alignment.verdict == AlignVerdict::kInconsistent && kept_scale)
+    if (auto words = ContradictionOf(pairs, *kept_scale)) warnings.push_back(std::move(*words));
+  if (!alignment.is_aligned()) return;
   std::vector<glm::dvec3> used;
   int guessed = 0;
   double largest = 0;  // distance between two landmarks of the model

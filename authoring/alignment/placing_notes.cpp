@@ -181,12 +181,13 @@ void MoveNotes(Scene& scene, const std::function<glm::dvec3(const glm::dvec3&)>&
   });
 }
 
-std::vector<LandmarkPair> OnRelief(std::vector<LandmarkPair> pairs, const LoadedScene& scene) {
+std::vector<LandmarkPair> OnRelief(std::vector<LandmarkPair> pairs, const LoadedScene& scene,
+                                   ReliefOrigin unstated) {
   for (LandmarkPair& pair : pairs) {
     const glm::dvec3 way = pair.scene.x_in_portal - pair.scene.eye;
     if (pair.scene.px_per_radian <= 0 || glm::length(way) <= 0) continue;
     const Sight sight{pair.scene.eye, glm::normalize(way), pair.scene.px_per_radian};
-    if (const auto now = PointOnRelief(scene, sight)) pair.scene = *now;
+    if (const auto now = PointOnRelief(scene, sight, unstated)) pair.scene = *now;
   }
   return pairs;
 }

@@ -59,8 +59,9 @@ void MirrorInNotes(Scene& scene, const std::string& tissue, double at);
 void MoveNotes(Scene& scene, const std::function<glm::dvec3(const glm::dvec3&)>& move);
 
 // The pairs with the places where their clicks meet the relief of `scene`, which may be another one
-// than that on which they were placed.
-std::vector<LandmarkPair> OnRelief(std::vector<LandmarkPair> pairs, const LoadedScene& scene);
+// than that on which they were placed. `unstated`: as for PointOnRelief.
+std::vector<LandmarkPair> OnRelief(std::vector<LandmarkPair> pairs, const LoadedScene& scene,
+                                   ReliefOrigin unstated);
 
 // JSON text, arthroscene.placing/1. Throws Error(kBadData) with the key and what is wrong.
 std::string NotesText(const PlacingNotes& notes);

@@ -58,7 +58,8 @@ struct StatedError {
   bool is_guessed = false;
 };
 
-StatedError ErrorTowards(const LoadedScene& scene, const glm::dvec3& direction) {
+StatedError ErrorTowards(const LoadedScene& scene, const glm::dvec3& direction,
+                         ReliefOrigin unstated) {
   const DepthMap &depth = OrEmpty(scene.depth), &sigma = OrEmpty(scene.depth_sigma);
   if (depth.empty()) return {kGuessedSigma, true};  // a bare sphere
   const auto pixel = PixelFromDirection(scene.scene.backdrop.projection, direction);
@@ -66,8 +67,8 @@ StatedError ErrorTowards(const LoadedScene& scene, const glm::dvec3& direction) 
   const int u = std::clamp(static_cast<int>(std::lround(pixel->x)), 0, depth.width - 1);
   const int v = std::clamp(static_cast<int>(std::lround(pixel->y)), 0, depth.height - 1);
   StatedError error;
-  if (const OriginMap& origins = OrEmpty(scene.depth_origin); !origins.empty())
-    error.is_guessed = origins.at(u, v) != ReliefOrigin::kMeasured;
+  const OriginMap& origins = OrEmpty(scene.depth_origin);
+  error.is_guessed = (origins.empty() ? unstated : origins.at(u, v)) != ReliefOrigin::kMeasured;
   if (error.is_guessed) error.sigma = kGuessedSigma;
   if (!sigma.empty() && std::isfinite(sigma.at(u, v)))
     error.sigma = std::max(static_cast<double>(sigma.at(u, v)), error.is_guessed ? error.sigma : 0);
@@ -114,7 +115,8 @@ std::optional<Sight> SightOfScope(const simulation::ScopeOptics& optics,
   return Sight{view.tip, direction, std::sqrt(std::abs(a.x * b.y - a.y * b.x))};
 }
 
-std::optional<ScenePoint> PointOnRelief(const LoadedScene& scene, const Sight& sight) {
+std::optional<ScenePoint> PointOnRelief(const LoadedScene& scene, const Sight& sight,
+                                        ReliefOrigin unstated) {
   const double range = RangeOf(scene, sight);
   if (std::isnan(range)) return std::nullopt;
   ScenePoint point;
@@ -123,7 +125,7 @@ std::optional<ScenePoint> PointOnRelief(const LoadedScene& scene, const Sight& s
   point.px_per_radian = sight.px_per_radian;
   const double angle = sight.px_per_radian > 0 ? kClickSigma / sight.px_per_radian : 0;
   point.lateral_sigma = range * angle;
-  const StatedError stated = ErrorTowards(scene, glm::normalize(point.x_in_portal));
+  const StatedError stated = ErrorTowards(scene, glm::normalize(point.x_in_portal), unstated);
   point.is_guessed = stated.is_guessed;
 
   // Slopes and edges: mean square change of the range around the click.

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/scene/files/loaded_scene.h"
+#include "simulation/scene/relief_origin.h"
 #include "simulation/scope/window_lens.h"
 
 namespace arthro::authoring {
@@ -41,8 +42,11 @@ std::optional<Sight> SightOfScope(const simulation::ScopeOptics& optics,
 
 // Point at which the line meets the relief; nothing where it leaves the scene through a place that
 // nothing has imaged. The standard error of the range is that of the relief, where the scene has
-// one, together with the change of the range within the standard error of the click.
-std::optional<ScenePoint> PointOnRelief(const LoadedScene& scene, const Sight& sight);
+// one, together with the change of the range within the standard error of the click. `unstated`:
+// how the depths came about where the scene has no map of their origins. A relief made from
+// brightness states its noise, which says nothing of how far it is from the truth.
+std::optional<ScenePoint> PointOnRelief(const LoadedScene& scene, const Sight& sight,
+                                        ReliefOrigin unstated = ReliefOrigin::kMeasured);
 
 // Refusal of a landmark on a hole; a whole sentence.
 inline constexpr const char* kNothingImaged =

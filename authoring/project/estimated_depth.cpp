@@ -33,4 +33,9 @@ void SetEstimatedDepth(Document& document, const EstimatedDepth& estimated) {
     backdrop.depth_sigma = "depth-sigma.tiff";
 }
 
+ReliefOrigin UnstatedOrigin(const Document& document) {
+  return document.depth && !document.is_depth_imported ? ReliefOrigin::kBrightness
+                                                       : ReliefOrigin::kMeasured;
+}
+
 }  // namespace arthro::authoring

@@ -6,6 +6,7 @@
 
 #include "authoring/project/document.h"
 #include "simulation/core/progress.h"
+#include "simulation/scene/relief_origin.h"
 
 namespace arthro::authoring {
 
@@ -20,5 +21,8 @@ EstimatedDepth EstimateDepth(const ColourImage& panorama, const DepthOptions& op
 
 // Puts it in the place of the document's own depth, with names for the files that have none.
 void SetEstimatedDepth(Document& document, const EstimatedDepth& estimated);
+
+// How the depths of a document came about that has no map of their origins.
+ReliefOrigin UnstatedOrigin(const Document& document);
 
 }  // namespace arthro::authoring

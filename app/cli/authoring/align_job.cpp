@@ -19,6 +19,7 @@
 #include "authoring/alignment/landmark_file.h"
 #include "authoring/alignment/surface_alignment.h"
 #include "authoring/project/document_io.h"
+#include "authoring/project/estimated_depth.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
@@ -80,7 +81,8 @@ void Run(const AlignJob& job) {
   std::optional<authoring::LandmarkAlignment> landmarks;
   std::optional<authoring::SurfaceAlignment> surface;
   if (!job.pairs.empty()) {
-    pairs = authoring::PairsInScene(authoring::ReadPairs(job.pairs), document, job.pairs);
+    pairs = authoring::PairsInScene(authoring::ReadPairs(job.pairs), document,
+                                    authoring::UnstatedOrigin(document), job.pairs);
     landmarks = ByPairs(job, document, index, pairs);
     if (landmarks->is_aligned()) tissue.pose = landmarks->portal_from_tissue;
   }

@@ -9,6 +9,7 @@
 #include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/alignment/placing_notes.h"
+#include "authoring/project/estimated_depth.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -48,7 +49,7 @@ void TakeAnew(EditorState& state) {
   mode.surface = document.surfaces.at(static_cast<std::size_t>(state.tissue));
   mode.pose = tissue->pose;
   const authoring::TissueLandmarks kept = KeptOf(state);
-  mode.pairs = authoring::OnRelief(kept.pairs, document);
+  mode.pairs = authoring::OnRelief(kept.pairs, document, authoring::UnstatedOrigin(document));
   mode.solves_scale = kept.solves_scale;
   mode.chosen = std::min(mode.chosen, static_cast<int>(mode.pairs.size()) - 1);
   authoring::LandmarkOptions options;
@@ -142,7 +143,8 @@ void TakeModelPoint(EditorState& state, int tissue, const glm::dvec3& x_in_tissu
 
 void TakeScenePoint(EditorState& state, const authoring::Sight& sight) {
   if (!PlacesLandmarks(state)) return;
-  const auto point = authoring::PointOnRelief(state.document(), sight);
+  const auto point = authoring::PointOnRelief(state.document(), sight,
+                                              authoring::UnstatedOrigin(state.document()));
   if (!point) {
     state.message = authoring::kNothingImaged;
     return;

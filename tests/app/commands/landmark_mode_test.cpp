@@ -109,6 +109,23 @@ TEST_F(Landmarks, AHoleIsRefusedInWords) {
   EXPECT_EQ(state->message, authoring::kNothingImaged);
 }
 
+TEST_F(Landmarks, ADepthFromBrightnessIsAGuessHoweverLittleItsNoise) {
+  for (const bool is_imported : {false, true}) {
+    authoring::Document document = state->document();
+    document.depth_sigma = Share(DepthMap(400, 300, 0.0002f));
+    document.is_depth_imported = is_imported;
+    StartDocument(*state, std::move(document), true);
+    state->tissue = 0;
+    state->step = Step::kTissue;
+    app::Run(*state, "landmarks");
+    if (Mode().pairs.empty()) MakePairs();
+    ASSERT_EQ(Mode().pairs.size(), 4u);
+    EXPECT_EQ(Mode().pairs[0].scene.is_guessed, !is_imported);
+    EXPECT_EQ(Mode().pairs[0].scene.range_sigma > 2e-3, !is_imported);
+    app::Run(*state, "leave-landmarks");
+  }
+}
+
 TEST_F(Landmarks, AClickOnAnotherTissueIsRefusedInWords) {
   app::Run(*state, "landmarks");
   TakeModelPoint(*state, 1, glm::dvec3(0.0));

@@ -1,6 +1,9 @@
 // Poses from landmarks, on small inputs made in code.
 #include "authoring/alignment/landmark_alignment.h"
 
+#include <cmath>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "simulation/core/units.h"
@@ -111,6 +114,18 @@ TEST(LandmarkAlignment, RefusesWhatDoesNotDetermineAPose) {
   const LandmarkAlignment rigid = AlignLandmarks(random, {}, Block());
   EXPECT_EQ(rigid.verdict, AlignVerdict::kInconsistent);
   EXPECT_NE(rigid.sentence.find("solve for the scale"), std::string::npos);
+  double largest = 0;
+  std::string words;
+  for (std::size_t i = 0; i < random.size(); ++i)
+    for (std::size_t j = i + 1; j < random.size(); ++j) {
+      const double model = glm::distance(random[i].x_in_tissue, random[j].x_in_tissue);
+      const double place = glm::distance(random[i].scene.x_in_portal, random[j].scene.x_in_portal);
+      if (std::abs(place - model) <= largest) continue;
+      largest = std::abs(place - model);
+      words = fmt::format("landmarks {} and {} are {:.1f} mm apart on the model, but {:.1f} mm",
+                          i + 1, j + 1, 1e3 * model, 1e3 * place);
+    }
+  EXPECT_TRUE(Warns(rigid, words)) << words;
   LandmarkOptions scaled;
   scaled.scale = AlignScale::kSolve;
   const LandmarkAlignment free = AlignLandmarks(random, {}, Block(), scaled);

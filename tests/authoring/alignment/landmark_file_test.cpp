@@ -35,7 +35,7 @@ std::string Text(const std::string& partner) {
 
 std::string FaultOf(const std::string& text) {
   try {
-    PairsInScene(ParsePairs(text, "p.json"), StepScene(), "p.json");
+    PairsInScene(ParsePairs(text, "p.json"), StepScene(), ReliefOrigin::kMeasured, "p.json");
   } catch (const Error& error) {
     return error.what();
   }
@@ -82,6 +82,16 @@ TEST(ScenePoint, ARangeThatWasNotMeasuredIsGuessed) {
   EXPECT_GT(guessed->range_sigma, 2e-3);
 }
 
+TEST(ScenePoint, TheNoiseOfAReliefFromBrightnessIsNotItsError) {
+  LoadedScene scene = StepScene();
+  scene.depth_sigma = Share(DepthMap(400, 300, 0.0002f));
+  const Sight sight = SightOfPanorama(scene.scene.backdrop, {120, 150});
+  EXPECT_NEAR(PointOnRelief(scene, sight)->range_sigma, 0.0002, 1e-6);
+  const auto guessed = PointOnRelief(scene, sight, ReliefOrigin::kBrightness);
+  EXPECT_TRUE(guessed->is_guessed);
+  EXPECT_GT(guessed->range_sigma, 2e-3);
+}
+
 TEST(ScenePoint, TheScopesPictureAndThePanoramaMeetTheSamePlace) {
   const LoadedScene scene = StepScene();
   const simulation::ScopeOptics optics;
@@ -105,7 +115,8 @@ TEST(LandmarkFile, ReadsEachKindOfPartner) {
        {R"("panorama": {"pixel": [100, 149.5]})",
         R"("scope": {"pixel": [255.5, 255.5], "size": 512, "latitude_deg": 5, "insertion": 0.01})",
         R"("place": {"position": [0, 0, 0.03], "sigma": 0.0004})"}) {
-    const auto pairs = PairsInScene(ParsePairs(Text(partner)), StepScene());
+    const auto pairs =
+        PairsInScene(ParsePairs(Text(partner)), StepScene(), ReliefOrigin::kMeasured);
     ASSERT_EQ(pairs.size(), 1u) << partner;
     EXPECT_EQ(pairs[0].name, "a");
     EXPECT_GT(glm::length(pairs[0].scene.x_in_portal), 0.02) << partner;

@@ -47,13 +47,13 @@ void Rows(Ui& ui, EditorState& state) {
 
 void Result(Ui& ui, const LandmarkMode& mode) {
   const authoring::LandmarkAlignment& alignment = mode.alignment;
-  if (!alignment.is_aligned()) {
+  if (!alignment.is_aligned())
     ColouredText(ui, alignment.sentence,
                  alignment.verdict == authoring::AlignVerdict::kTooFew ? kQuiet : kBad);
-    return;
-  }
-  QuietText(ui, fmt::format(
-                    "Expected error: {:.2f} mm, {:.1f}°{}", MmFromMetres(alignment.position_sigma),
+  else
+    QuietText(
+        ui,
+        fmt::format("Expected error: {:.2f} mm, {:.1f}°{}", MmFromMetres(alignment.position_sigma),
                     DegreesFromRadians(alignment.rotation_sigma),
                     mode.solves_scale
                         ? fmt::format(", scale {:.3f} ± {:.3f}", alignment.portal_from_tissue.scale,
