@@ -1,6 +1,8 @@
 // Sentences on the result of an alignment by landmarks.
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>

@@ -42,9 +42,9 @@ std::optional<Sight> SightOfScope(const simulation::ScopeOptics& optics,
 
 // Point at which the line meets the relief; nothing where it leaves the scene through a place that
 // nothing has imaged. The standard error of the range is that of the relief, where the scene has
-// one, together with the change of the range within the standard error of the click. `unstated`:
-// how the depths came about where the scene has no map of their origins. A relief made from
-// brightness states its noise, which says nothing of how far it is from the truth.
+// one, together with the change of the range within the standard error of the click.
+// `unstated`: origin of the depths where the scene has no map of their origins. It matters for the
+// error only: the noise that a relief from brightness states is below its error.
 std::optional<ScenePoint> PointOnRelief(const LoadedScene& scene, const Sight& sight,
                                         ReliefOrigin unstated = ReliefOrigin::kMeasured);
 

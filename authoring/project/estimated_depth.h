@@ -22,7 +22,7 @@ EstimatedDepth EstimateDepth(const ColourImage& panorama, const DepthOptions& op
 // Puts it in the place of the document's own depth, with names for the files that have none.
 void SetEstimatedDepth(Document& document, const EstimatedDepth& estimated);
 
-// How the depths of a document came about that has no map of their origins.
+// Origin of the depths of a document where it has no map of their origins.
 ReliefOrigin UnstatedOrigin(const Document& document);
 
 }  // namespace arthro::authoring
