@@ -96,7 +96,8 @@ constexpr Command kCommands[] = {
      [](State& state) {
        BeginRecord(state);
        state.message = "Recording a script. File, Save the script… ends it.";
-     }},
+     },
+     "A script is being recorded already."},
     {"end-script",
      "Save the script…",
      "End the record of the session, and save it.",
@@ -104,7 +105,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      [](const State& state) { return Idle(state) && state.record.is_on; },
-     [](State& state) { BrowseForScript(state, "Save the script", {}); }},
+     [](State& state) { BrowseForScript(state, "Save the script", {}); },
+     "No script is being recorded."},
     {"settings",
      "Settings…",
      "Size of text, colours and language of the window.",
@@ -124,7 +126,8 @@ constexpr Command kCommands[] = {
      [](State& state) {
        state.message = "Undone: " + state.history.UndoName();
        state.history.Undo();
-     }},
+     },
+     "There is nothing to undo."},
     {"redo",
      "Redo",
      "Redo the last edit that was undone.",
@@ -135,7 +138,8 @@ constexpr Command kCommands[] = {
      [](State& state) {
        state.message = "Redone: " + state.history.RedoName();
        state.history.Redo();
-     }},
+     },
+     "There is nothing to redo."},
     {"history",
      "History…",
      "List the steps, earlier saves and snapshots, and go back to one.",

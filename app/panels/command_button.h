@@ -1,4 +1,4 @@
-// A button that runs a command of the list; shortcut and help as its tooltip.
+// Buttons that run a command of the list.
 #pragma once
 
 #include <string_view>
@@ -9,5 +9,11 @@
 namespace arthro::app {
 
 bool CommandButton(Ui& ui, EditorState& state, std::string_view id, const ImVec2& size = {0, 0});
+// The same, lit while `is_on`.
+void CommandToggle(Ui& ui, EditorState& state, std::string_view id, bool is_on,
+                   const ImVec2& size = {0, 0});
+
+// Tooltip of a command for the last item: its help, its keys, and why it cannot be called now.
+void CommandTip(Ui& ui, const EditorState& state, const Command& command);
 
 }  // namespace arthro::app

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "app/panels/widgets.h"
+#include "app/state/capital.h"
 #include "simulation/core/options.h"
 
 namespace arthro::app {
@@ -21,8 +21,7 @@ namespace arthro::app {
 inline std::string WordsOfField(std::string name) {
   for (char& c : name)
     if (c == '_') c = ' ';
-  if (!name.empty()) name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-  return name;
+  return Capital(std::move(name));
 }
 
 struct OptionsPanelVisitor {

@@ -127,7 +127,7 @@ bool HitArea(const char* id, const ImVec2& size, ImGuiButtonFlags flags) {
   return ImGui::InvisibleButton(id, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}, flags);
 }
 
-void Tooltip(Ui& ui, const char* text, const std::string& keys) {
+void Tooltip(Ui& ui, const char* text, const std::string& keys, const char* why_disabled) {
   if (text == nullptr || *text == '\0') return;
   ui.widgets.NoteTip();
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsAnyItemActive())
@@ -138,6 +138,11 @@ void Tooltip(Ui& ui, const char* text, const std::string& keys) {
   ImGui::PushTextWrapPos(ui.Px(340));
   const std::string shown = ui.In(text);
   ImGui::TextUnformatted((keys.empty() ? shown : shown + " (" + ui.In(keys) + ")").c_str());
+  if (*why_disabled != '\0') {
+    ImGui::PushStyleColor(ImGuiCol_Text, OnGround(kWarning));
+    ImGui::TextUnformatted(ui.In(why_disabled).c_str());
+    ImGui::PopStyleColor();
+  }
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }

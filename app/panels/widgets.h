@@ -102,7 +102,7 @@ void QuietText(Ui& ui, const std::string& text);  // wrapped, secondary
 void ShortenedText(Ui& ui, const std::string& text, const std::string& full, float room = 0);
 void ColouredText(Ui& ui, const std::string& text, unsigned colour);
 // Shown while the last item is pointed at, with the keys that do the same.
-void Tooltip(Ui& ui, const char* text, const std::string& keys = "");
+void Tooltip(Ui& ui, const char* text, const std::string& keys = "", const char* why_disabled = "");
 // `words` drawn by hand, in the window's language, in a colour of the theme's ground.
 void DrawWords(Ui& ui, const ImVec2& corner, unsigned colour, const std::string& words);
 void Gap(Ui& ui, double pixels = 6);

@@ -43,6 +43,15 @@ bool HasPicture(const EditorState& state) {
   return InEditor(state) && state.document().panorama != nullptr;
 }
 
+const char* WhyDisabled(const EditorState& state, const Command& command) {
+  if (command.enabled(state)) return "";
+  if (state.jobs.busy()) return "Wait until the work that is under way has ended, or stop it.";
+  if (*command.needs != '\0') return command.needs;
+  if (state.document().panorama == nullptr)
+    return "First begin a scene from footage or from a picture.";
+  return state.practice ? "First leave the practice." : "";
+}
+
 const Command& CommandOf(const EditorState& state, std::string_view id) {
   for (const Command& command : state.commands)
     if (id == command.id) return command;

@@ -25,6 +25,8 @@ struct Command {
   Shortcut shortcut, other_shortcut = {};
   bool (*enabled)(const EditorState&);
   void (*run)(EditorState&);
+  const char* needs =
+      "";  // sentence: why it cannot be called, where nothing else stands in its way
 };
 
 const Command& CommandOf(const EditorState& state,
@@ -35,6 +37,8 @@ bool Always(const EditorState& state);
 bool InEditor(const EditorState& state);
 bool Idle(const EditorState& state);  // and no work is under way
 bool HasPicture(const EditorState& state);
+// Sentence that says why it cannot be called now; "" where it can, or where that is not known.
+const char* WhyDisabled(const EditorState& state, const Command& command);
 
 // Runs it if it is enabled. An Error becomes a dialog with its sentence.
 void Run(EditorState& state, const Command& command);

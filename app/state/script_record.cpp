@@ -84,6 +84,7 @@ std::string WhyNot(const EditorState& state, const Command& command) {
                        state.jobs.words());
   if (state.practice)
     return "a practice is under way; \"do leave-practice\" ends it, if it is not one of practice";
+  if (*command.needs != '\0') return command.needs;
   if (!HasPicture(state))
     return "the scene has no picture; \"do import-panorama FILE\" gives it one";
   return fmt::format(

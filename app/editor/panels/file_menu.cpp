@@ -17,7 +17,7 @@ void Entry(Ui& ui, EditorState& state, const char* id) {
   const bool is_pressed = ImGui::MenuItem(ui.translation.Label(command.words).c_str(),
                                           ui.In(keys).c_str(), false, is_enabled);
   RecordItem(ui, command.words, is_enabled);
-  Tooltip(ui, command.help);
+  Tooltip(ui, command.help, "", WhyDisabled(state, command));
   if (is_pressed) Run(state, command);
 }
 

@@ -22,9 +22,8 @@ constexpr double kCellWidth = 284, kPictureHeight = 160, kCellText = 74;
 void Tile(Ui& ui, EditorState& state, const char* id, float width) {
   const Command& command = CommandOf(state, id);
   const bool is_enabled = command.enabled(state);
-  const char* const help = is_enabled || HasPicture(state) || state.jobs.busy()
-                               ? command.help
-                               : "First begin a scene from footage or from a picture.";
+  const char* const why_disabled = WhyDisabled(state, command);
+  const char* const help = *why_disabled != '\0' ? why_disabled : command.help;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::BeginDisabled(!is_enabled);
   const bool is_pressed =

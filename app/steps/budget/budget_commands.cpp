@@ -57,7 +57,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      HasChange,
-     MakeChange},
+     MakeChange,
+     "There is no change that would help."},
     {"full-picture",
      "Draw moving pictures in full",
      "Draw moving pictures as finely as the machine can.",
@@ -65,7 +66,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      [](const State& state) { return state.settings.moving_picture != MovingPicture::kAutomatic; },
-     [](State& state) { state.settings.moving_picture = MovingPicture::kAutomatic; }},
+     [](State& state) { state.settings.moving_picture = MovingPicture::kAutomatic; },
+     "Moving pictures are drawn in full already."},
 };
 
 }  // namespace

@@ -95,11 +95,8 @@ void Costs(Ui& ui, EditorState& state) {
 }  // namespace
 
 void BudgetFields(Ui& ui, EditorState& state) {
-  const Command& command = CommandOf(state, "budget");
   const bool is_shown = state.steps.practice->budget->is_shown;
-  if (ToggleButton(ui, command.words, is_shown, command.enabled(state), {-FLT_MIN, 0},
-                   command.help))
-    Run(state, command);
+  CommandToggle(ui, state, "budget", is_shown, {-FLT_MIN, 0});
   if (is_shown) Costs(ui, state);
 }
 

@@ -43,7 +43,8 @@ constexpr Command kCommands[] = {
      {GLFW_KEY_R, true},
      {},
      [](const State& state) { return InEditor(state) && CanRun(state); },
-     RunFootage},
+     RunFootage,
+     "Nothing has changed since the last run, or no footage is chosen."},
     {"use-panorama",
      "Use this panorama",
      "Make it the backdrop of the scene, and go to the Depth step.",
@@ -53,7 +54,8 @@ constexpr Command kCommands[] = {
      [](const State& state) {
        return Idle(state) && state.steps.panorama->footage && state.steps.panorama->footage->made;
      },
-     UseMadePanorama},
+     UseMadePanorama,
+     "First make a panorama from footage."},
     {"use-measured-part",
      "Use the measured part",
      "Make the part that was measured the backdrop of the scene; the rest is estimated.",
@@ -61,7 +63,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      [](const State& state) { return Idle(state) && HasMeasuredPart(state); },
-     UseMeasuredPart},
+     UseMeasuredPart,
+     "No part of the relief was measured."},
     {"measure-relief",
      "Measure the relief",
      "Measure the relief from the motion of the scope before the panorama is made, or do not.",
@@ -71,7 +74,8 @@ constexpr Command kCommands[] = {
      [](const State& state) { return Idle(state) && state.steps.panorama->footage; },
      [](State& state) {
        SetMeasuresRelief(state, !state.steps.panorama->footage->measures_relief);
-     }},
+     },
+     "First choose a video or a folder of pictures."},
     {"mirror-scene",
      "Mirror for the other knee",
      "Mirror picture, depth, tissues, cuts, incisions and side: the same scene of the other knee.",

@@ -30,7 +30,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      May<DeviceRole::kScope>,
-     Calibrate<DeviceRole::kScope>},
+     Calibrate<DeviceRole::kScope>,
+     "No device that is ready holds the scope."},
     {"calibrate-instrument",
      "Calibrate instrument incision…",
      "Find where the incision lies in the frame of the instrument's device.",
@@ -38,7 +39,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      May<DeviceRole::kInstrument>,
-     Calibrate<DeviceRole::kInstrument>},
+     Calibrate<DeviceRole::kInstrument>,
+     "No device that is ready holds the instrument."},
     {"press-incision",
      "Press",
      "Measure the rod's pose now; a button of its handle does the same.",
@@ -50,7 +52,8 @@ constexpr Command kCommands[] = {
               state.steps.practice->calibrating->work.source() == PivotSource::kPresses &&
               !state.steps.practice->calibrating->work.pressing();
      },
-     [](State& state) { state.steps.practice->calibrating->work.Press(); }},
+     [](State& state) { state.steps.practice->calibrating->work.Press(); },
+     "A press is being measured, or this device needs none."},
     {"begin-incision-again",
      "Begin again",
      "Discard all presses and poses so far.",
@@ -58,7 +61,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      Calibrating,
-     [](State& state) { state.steps.practice->calibrating->work.Begin(); }},
+     [](State& state) { state.steps.practice->calibrating->work.Begin(); },
+     "No calibration is under way."},
     {"use-incision",
      "Use this incision",
      "Use it for this hand at once, and save it in the rig's file.",
@@ -68,7 +72,8 @@ constexpr Command kCommands[] = {
      [](const State& state) {
        return Calibrating(state) && state.steps.practice->calibrating->work.MayBeUsed();
      },
-     UseIncision},
+     UseIncision,
+     "The incision is not known well enough yet."},
     {"save-rig-as",
      "Save rig as…",
      "Write the rig with its new incisions into another file.",
@@ -79,7 +84,8 @@ constexpr Command kCommands[] = {
        return Calibrating(state) && !state.steps.practice->calibrating->outcome.empty() &&
               state.steps.practice->hands->IsInRig(state.steps.practice->calibrating->role);
      },
-     SaveRigAs},
+     SaveRigAs,
+     "First use the incision."},
     {"close-calibration",
      "Close calibration",
      "Return to the devices; Esc does the same.",
@@ -87,7 +93,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      Calibrating,
-     EndCalibration},
+     EndCalibration,
+     "No calibration is under way."},
 };
 
 }  // namespace

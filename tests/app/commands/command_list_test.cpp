@@ -27,7 +27,7 @@ TEST_F(Commands, ACommandThatCannotBeCalledByNameSaysWhy) {
   EXPECT_NE(why("depth-map").find("the scene has no picture"), std::string::npos)
       << why("depth-map");
   Open();
-  EXPECT_NE(why("head-left").find("on a page that is not open"), std::string::npos);
+  EXPECT_NE(why("head-left").find("No practice is under way."), std::string::npos);
   SetTitle(state, "another");
   EXPECT_NE(why("open", temp / "knee").find("the scene has changes that are not saved"),
             std::string::npos);
@@ -63,6 +63,32 @@ TEST_F(Commands, APageOfACommandThatIsCalledByNameIsOpened) {
   EXPECT_EQ(state.step, Step::kPractice);
   EXPECT_TRUE(state.steps.practice->rig->is_shown);
   EXPECT_NE(RunByName(state, "forget-lengths", {}), "") << "there are none";
+}
+
+// A grey button that does not say why is a dead end.
+TEST_F(Commands, ACommandThatIsGreySaysWhyInASentence) {
+  const auto expect_reasons = [&](const std::string& when) {
+    for (const Command& command : AllCommands()) {
+      const std::string why = WhyDisabled(state, command);
+      EXPECT_EQ(why.empty(), command.enabled(state)) << command.id << " " << when;
+      EXPECT_TRUE(why.empty() || why.ends_with('.')) << command.id << ": " << why;
+    }
+  };
+  const auto why = [&](const char* id) {
+    return std::string(WhyDisabled(state, CommandOf(state, id)));
+  };
+  expect_reasons("without a scene");
+  EXPECT_EQ(why("depth-map"), "First begin a scene from footage or from a picture.");
+  Open();
+  expect_reasons("with a scene");
+  EXPECT_EQ(why("undo"), "There is nothing to undo.");
+  app::Run(state, "practise");
+  ASSERT_TRUE(state.jobs.busy());
+  expect_reasons("during work");
+  EXPECT_EQ(why("save"), "Wait until the work that is under way has ended, or stop it.");
+  Settle(state);
+  expect_reasons("in practice");
+  EXPECT_EQ(why("save"), "First leave the practice.");
 }
 
 TEST(CommandList, EveryCommandHasItsOwnIdWordsAndHelp) {

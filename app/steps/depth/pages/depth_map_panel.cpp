@@ -28,10 +28,7 @@ void Toggles(Ui& ui, EditorState& state, int columns, std::initializer_list<Entr
   int place = 0;
   for (const Entry& entry : entries) {
     if (place++ % columns != 0) ImGui::SameLine();
-    const Command& command = CommandOf(state, entry.command);
-    if (ToggleButton(ui, command.words, entry.is_chosen, command.enabled(state), {part, 0},
-                     command.help))
-      Run(state, command);
+    CommandToggle(ui, state, entry.command, entry.is_chosen, {part, 0});
   }
 }
 

@@ -23,27 +23,22 @@ namespace {
 void ScopeOrMap(Ui& ui, EditorState& state) {
   const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
   const bool is_map = ShowsDepthBoard(state);
-  const Command& scope = CommandOf(state, "depth-scope");
-  if (ToggleButton(ui, scope.words, !is_map, scope.enabled(state), {half, 0}, scope.help))
-    Run(state, scope);
+  CommandToggle(ui, state, "depth-scope", !is_map, {half, 0});
   ImGui::SameLine();
-  const Command& map = CommandOf(state, "depth-map");
-  if (ToggleButton(ui, map.words, is_map, map.enabled(state), {half, 0}, map.help)) Run(state, map);
+  CommandToggle(ui, state, "depth-map", is_map, {half, 0});
   Gap(ui, 2);
 }
 
 // Tool of a drag over the scope's picture and the overview.
 void TouchOrBrush(Ui& ui, EditorState& state) {
   const float half = ColumnWidth(2);
-  const Command& touch = CommandOf(state, "touch-preview");
-  if (ToggleButton(ui, touch.words, TouchesRelief(state), touch.enabled(state), {half, 0},
-                   touch.help))
-    Run(state, touch);
+  CommandToggle(ui, state, "touch-preview", TouchesRelief(state), {half, 0});
   ImGui::SameLine();
   const bool paints = PaintsDepth(state);
   const Command& brush = CommandOf(state, paints ? "leave-depth-brush" : "map-brush");
-  if (ToggleButton(ui, "Brush", paints, brush.enabled(state), {half, 0}, brush.help))
-    Run(state, brush);
+  const bool is_pressed = ToggleButton(ui, "Brush", paints, brush.enabled(state), {half, 0});
+  CommandTip(ui, state, brush);
+  if (is_pressed) Run(state, brush);
 }
 
 }  // namespace

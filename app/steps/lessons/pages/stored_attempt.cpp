@@ -1,12 +1,12 @@
 // Attempts of the records in the window: the result and the look back as right after the practice.
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 
 #include "app/records/attempts/records_file.h"
 #include "app/report/make_report.h"
+#include "app/state/capital.h"
 #include "app/steps/lessons/instructor/rating_board.h"
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/lessons_step.h"
@@ -16,13 +16,6 @@
 
 namespace arthro::app {
 namespace {
-
-// A sentence of its own.
-std::string SentenceOf(std::string words) {
-  if (!words.empty())
-    words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
-  return words + ".";
-}
 
 void AddNotice(std::string& notice, const std::string& sentence) {
   notice += (notice.empty() ? "" : "\n") + sentence;
@@ -35,7 +28,7 @@ void TakeRecording(const EditorState& state, const Records& records, const Attem
   try {
     auto recording = simulation::ReadAttempt(records.folder() / record.log);
     shown.frames = std::move(recording.frames);
-    if (!recording.torn.empty()) AddNotice(shown.notice, SentenceOf(recording.torn));
+    if (!recording.torn.empty()) AddNotice(shown.notice, Capital(recording.torn) + ".");
     if (!simulation::IsOfScene(simulation::AttemptHeadOf(recording.head), state.document())) {
       AddNotice(shown.notice,
                 fmt::format("This attempt was made in the scene \"{}\" as it was then; open that "
@@ -50,7 +43,8 @@ void TakeRecording(const EditorState& state, const Records& records, const Attem
     else
       AddNotice(shown.notice,
                 "The tissue of this attempt was not recorded; the picture shows it at rest.");
-    if (!recording.track_fault.empty()) AddNotice(shown.notice, SentenceOf(recording.track_fault));
+    if (!recording.track_fault.empty())
+      AddNotice(shown.notice, Capital(recording.track_fault) + ".");
   } catch (const Error& fault) {
     shown.frames.clear();
     shown.notice = fmt::format("The look back is not there, and the result is: {}", fault.what());

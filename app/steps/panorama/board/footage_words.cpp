@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/state/capital.h"
 #include "app/steps/panorama/board/panorama_run.h"
 #include "simulation/core/units.h"
 
@@ -11,13 +12,6 @@ namespace arthro::app {
 namespace {
 
 std::string Frames(int count) { return count == 1 ? "1 frame" : fmt::format("{} frames", count); }
-
-// A reason as the pipeline gives it, as the rest of a sentence or as one of its own.
-std::string Capital(std::string words) {
-  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z')
-    words[0] = static_cast<char>(words[0] - 'a' + 'A');
-  return words;
-}
 
 }  // namespace
 

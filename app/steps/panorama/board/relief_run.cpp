@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
+#include "app/state/capital.h"
 #include "app/steps/panorama/board/board_picture.h"
 #include "app/steps/panorama/board/footage_mail.h"
 #include "app/steps/panorama/board/panorama_run.h"
@@ -23,12 +24,6 @@ Progress Measuring(const Progress& whole) {
       whole.report(fmt::format("measuring the relief: {}", stage), done);
     };
   return part;
-}
-
-std::string Capital(std::string words) {
-  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z')
-    words[0] = static_cast<char>(words[0] - 'a' + 'A');
-  return words;
 }
 
 }  // namespace

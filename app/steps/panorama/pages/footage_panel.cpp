@@ -137,10 +137,10 @@ void NotMeasured(Ui& ui, EditorState& state, const MadeRelief& relief) {
 }
 
 // The one that goes on from here.
-bool MainButton(Ui& ui, const std::string& name, bool enabled, const char* help) {
+bool MainButton(Ui& ui, const std::string& name, bool enabled) {
   ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_HeaderHovered));
-  const bool pressed = Button(ui, name, enabled, {-FLT_MIN, ui.Px(36)}, help);
+  const bool pressed = Button(ui, name, enabled, {-FLT_MIN, ui.Px(36)});
   ImGui::PopStyleColor(2);
   return pressed;
 }
@@ -156,9 +156,9 @@ void RunAndStop(Ui& ui, EditorState& state) {
   }
   const Command& run = CommandOf(state, "run-footage");
   const bool again = board.session != nullptr;
-  const bool pressed =
-      again ? Button(ui, "Run again", run.enabled(state), {-FLT_MIN, ui.Px(36)}, run.help)
-            : MainButton(ui, "Run", run.enabled(state), run.help);
+  const bool pressed = again ? Button(ui, "Run again", run.enabled(state), {-FLT_MIN, ui.Px(36)})
+                             : MainButton(ui, "Run", run.enabled(state));
+  CommandTip(ui, state, run);
   if (pressed) Run(state, run);
   if (const std::string next = WordsOfNextRun(board); !next.empty()) QuietText(ui, next);
 }
@@ -170,7 +170,9 @@ void Result(Ui& ui, EditorState& state) {
   const std::vector<std::string> lines = WordsOfResult(board);
   Heading(ui, lines.front());
   const Command& use = CommandOf(state, "use-panorama");
-  if (MainButton(ui, use.words, use.enabled(state), use.help)) Run(state, use);
+  const bool is_used = MainButton(ui, use.words, use.enabled(state));
+  CommandTip(ui, state, use);
+  if (is_used) Run(state, use);
   Gap(ui, 1);
   if (board.made->relief && !board.made->is_measured()) {
     NotMeasured(ui, state, *board.made->relief);

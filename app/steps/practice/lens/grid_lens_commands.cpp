@@ -21,7 +21,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      HasGridLens,
-     SaveGridLens},
+     SaveGridLens,
+     "First calibrate a lens from pictures of a grid."},
     {"use-grid-lens",
      "Use it here",
      "Let the scope of this scene have the calibrated lens.",
@@ -29,7 +30,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      HasGridLens,
-     UseGridLens},
+     UseGridLens,
+     "First calibrate a lens from pictures of a grid."},
 };
 
 }  // namespace

@@ -126,12 +126,8 @@ void CommandRow(Ui& ui, EditorState& state, std::span<const CommandState> row) {
   for (const auto& [id, is_on] : row) {
     if (!is_first) ImGui::SameLine(0, gap);
     is_first = false;
-    const Command& command = CommandOf(state, id);
-    const float width = ui.WidthOf(command.words) + spare / count;
-    const bool is_pressed =
-        ToggleButton(ui, command.words, is_on, command.enabled(state), {width, ui.Px(kButton)});
-    Tooltip(ui, command.help, WordsOf(command.shortcut));
-    if (is_pressed) Run(state, command);
+    const float width = ui.WidthOf(CommandOf(state, id).words) + spare / count;
+    CommandToggle(ui, state, id, is_on, {width, ui.Px(kButton)});
   }
 }
 void CommandRow(Ui& ui, EditorState& state, std::initializer_list<CommandState> row) {

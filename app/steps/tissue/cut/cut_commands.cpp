@@ -15,7 +15,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      IsTissueChosen,
-     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kTear); }},
+     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kTear); },
+     "First choose a tissue."},
     {"cut-bite",
      "Bite…",
      "Click on the tissue in either view. A round bite is removed there.",
@@ -23,7 +24,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      IsTissueChosen,
-     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kBite); }},
+     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kBite); },
+     "First choose a tissue."},
     {"remove-cut",
      "Remove this cut",
      "Make the tissue whole where the chosen cut is.",
@@ -31,7 +33,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      [](const State& state) { return IsTissueChosen(state) && ChosenCut(state) != nullptr; },
-     RemoveChosenCut},
+     RemoveChosenCut,
+     "First choose a cut in the list."},
     {"remove-all-cuts",
      "Remove all cuts",
      "Make the tissue whole.",
@@ -42,7 +45,8 @@ constexpr Command kCommands[] = {
        return IsTissueChosen(state) &&
               !state.document().scene.tissues[static_cast<std::size_t>(state.tissue)].cuts.empty();
      },
-     RemoveAllCuts},
+     RemoveAllCuts,
+     "The tissue has no cuts."},
     {"cut-region",
      "Region…",
      "Click on the tissue in either view. The volume that a trainee removes in a ball around it "
@@ -51,7 +55,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      IsTissueChosen,
-     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kRegion); }},
+     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kRegion); },
+     "First choose a tissue."},
     {"remove-region",
      "Remove this region",
      "Remove the chosen region. The volume taken there counts for the rest of the tissue.",
@@ -59,7 +64,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      [](const State& state) { return IsTissueChosen(state) && ChosenRegion(state) != nullptr; },
-     RemoveChosenRegion},
+     RemoveChosenRegion,
+     "First choose a region in the list."},
 };
 
 }  // namespace

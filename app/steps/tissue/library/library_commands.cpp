@@ -115,7 +115,8 @@ constexpr Command kCommands[] = {
      {},
      {},
      IsTissueChosen,
-     MakeChosenTear},
+     MakeChosenTear,
+     "First choose a tissue."},
 };
 
 }  // namespace

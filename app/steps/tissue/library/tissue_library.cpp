@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/state/capital.h"
 #include "app/state/edits.h"
 #include "app/steps/tissue/library/torn_surface.h"
 #include "authoring/models/model_in_scene.h"
@@ -163,7 +164,7 @@ void UpdateTearPreview(EditorState& state) {
   try {
     cuts = authoring::TearCuts(OrEmpty(surface), shelf.tear);
   } catch (const Error& error) {
-    shelf.preview_fault = error.sentence();
+    shelf.preview_fault = Capital(error.sentence()) + ".";
   }
   shelf.preview = authoring::ThumbnailOf(OrEmpty(surface), cuts, 900);
 }

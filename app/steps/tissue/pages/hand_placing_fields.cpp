@@ -43,9 +43,7 @@ void DistanceLegend(Ui& ui) {
 // Part of the surface that the fit takes.
 void PatchFields(Ui& ui, EditorState& state) {
   const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
-  const Command& pick = CommandOf(state, "pick-patch");
-  if (ToggleButton(ui, pick.words, PicksPatch(state), pick.enabled(state), {half, 0}, pick.help))
-    Run(state, pick);
+  CommandToggle(ui, state, "pick-patch", PicksPatch(state), {half, 0});
   ImGui::SameLine(0, ui.Px(8));
   CommandButton(ui, state, "remove-patch", {half, 0});
   if (PicksPatch(state) && state.dialogs.empty() && !ImGui::GetIO().WantTextInput &&
@@ -68,9 +66,7 @@ void FitFields(Ui& ui, EditorState& state) {
   const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
   CommandButton(ui, state, "fit-to-relief", {half, 0});
   ImGui::SameLine(0, ui.Px(8));
-  const Command& lay = CommandOf(state, "lay-on-relief");
-  if (ToggleButton(ui, lay.words, LaysOnRelief(state), lay.enabled(state), {half, 0}, lay.help))
-    Run(state, lay);
+  CommandToggle(ui, state, "lay-on-relief", LaysOnRelief(state), {half, 0});
   if (LaysOnRelief(state) && state.dialogs.empty() && !ImGui::GetIO().WantTextInput &&
       ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false))
     ToggleLaying(state);
@@ -89,10 +85,7 @@ void FitFields(Ui& ui, EditorState& state) {
   if (Slider(ui, "Fade", faded, 0, 100, "%.0f %%",
              "Fade the tissue out of the scope's picture, to compare it with what lies below."))
     placing.fade = 0.01 * faded;
-  const Command& before = CommandOf(state, "show-before");
-  if (ToggleButton(ui, before.words, ShownBefore(state).has_value(), before.enabled(state),
-                   {-FLT_MIN, 0}, before.help))
-    Run(state, before);
+  CommandToggle(ui, state, "show-before", ShownBefore(state).has_value(), {-FLT_MIN, 0});
 }
 
 void StepFields(Ui& ui, EditorState& state) {

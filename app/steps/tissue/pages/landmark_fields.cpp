@@ -65,10 +65,7 @@ void Result(Ui& ui, const LandmarkMode& mode) {
 }  // namespace
 
 void LandmarkFields(Ui& ui, EditorState& state) {
-  const Command& toggle = CommandOf(state, "landmarks");
-  if (ToggleButton(ui, toggle.words, PlacesLandmarks(state), toggle.enabled(state), {-FLT_MIN, 0},
-                   toggle.help))
-    Run(state, toggle);
+  CommandToggle(ui, state, "landmarks", PlacesLandmarks(state), {-FLT_MIN, 0});
   if (PlacesLandmarks(state) && state.dialogs.empty() && !ImGui::GetIO().WantTextInput &&
       ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false))
     LeaveLandmarks(state);

@@ -51,10 +51,7 @@ void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind)
   double mm = MmFromMetres(state.steps.tissue->ball_radius);
   if (Slider(ui, "Radius of the next ball", mm, 0.2, 15.0, "%.1f mm"))
     state.steps.tissue->ball_radius = MetresFromMm(mm);
-  const Command& brush = CommandOf(state, buttons.brush);
-  if (ToggleButton(ui, brush.words, state.steps.tissue->brush == kind, brush.enabled(state),
-                   {-FLT_MIN, 0}, brush.help))
-    Run(state, brush);
+  CommandToggle(ui, state, buttons.brush, state.steps.tissue->brush == kind, {-FLT_MIN, 0});
   CommandButton(ui, state, buttons.at_instrument, {-FLT_MIN, 0});
   const std::vector<Ball>& balls = BallsOf(tissue, kind);
   if (!balls.empty()) ListOf(ui, state, balls);

@@ -49,10 +49,7 @@ void List(Ui& ui, const char* id, int count, int chosen,
 }
 
 void BrushButton(Ui& ui, EditorState& state, const char* id, CutBrush::Kind kind, float width) {
-  const Command& command = CommandOf(state, id);
-  if (ToggleButton(ui, command.words, state.steps.tissue->cut_brush.kind == kind,
-                   command.enabled(state), {width, 0}, command.help))
-    Run(state, command);
+  CommandToggle(ui, state, id, state.steps.tissue->cut_brush.kind == kind, {width, 0});
 }
 
 // Sizes of the chosen cut; with none chosen, of the next cut.

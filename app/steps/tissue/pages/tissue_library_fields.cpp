@@ -58,7 +58,7 @@ void ModelButton(Ui& ui, EditorState& state, const Command& command, authoring::
     shelf.dragged_from = {low.x + 0.5 * size.x, low.y + 0.5 * size.y};
   }
   RecordItem(ui, command.words, is_enabled);
-  Tooltip(ui, command.help);
+  CommandTip(ui, state, command);
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(low, {low.x + size.x, low.y + size.y},
                       ImGui::GetColorU32(is_hovered ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg),

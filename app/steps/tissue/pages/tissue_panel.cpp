@@ -169,10 +169,7 @@ void HeldFields(Ui& ui, EditorState& state, const Tissue& tissue) {
 
 // Poke button, and the force on the author's instrument.
 void PokeFields(Ui& ui, EditorState& state, const std::function<void()>& below) {
-  const Command& poke = CommandOf(state, "poke");
-  if (ToggleButton(ui, poke.words, state.steps.practice->poke.has_value(), poke.enabled(state),
-                   {-FLT_MIN, ui.Px(36)}, poke.help))
-    Run(state, poke);
+  CommandToggle(ui, state, "poke", state.steps.practice->poke.has_value(), {-FLT_MIN, ui.Px(36)});
   if (!state.steps.practice->poke) return;
   const double force = glm::length(state.steps.practice->poke->snapshot().instrument.tip_force);
   ColouredText(ui,
@@ -226,9 +223,8 @@ void TissuePanel(Ui& ui, EditorState& state, const std::function<void()>& below_
   ImGui::SameLine(0, ui.Px(6));
   CommandButton(ui, state, "add-solid", {text("add-solid") + share, 0});
   ImGui::SameLine(0, ui.Px(6));
-  if (ToggleButton(ui, library.words, state.steps.tissue->shelf->is_open, library.enabled(state),
-                   {text("library") + share, 0}, library.help))
-    Run(state, library);
+  CommandToggle(ui, state, "library", state.steps.tissue->shelf->is_open,
+                {text("library") + share, 0});
   if (state.steps.tissue->shelf->is_open && library.enabled(state))
     return TissueLibraryFields(ui, state);
   const auto& tissues = document.scene.tissues;
