@@ -242,6 +242,11 @@ glm::dvec3 SpreadOf(std::span<const glm::dvec3> points) {
   return {root(values[2]), root(values[1]), root(values[0])};
 }
 
+bool IsOnLine(std::span<const glm::dvec3> points) {
+  const glm::dvec3 spread = SpreadOf(points);
+  return !(spread.y > kCollinear * spread.x);
+}
+
 LandmarkAlignment AlignLandmarks(std::span<const LandmarkPair> pairs, const Pose& present,
                                  const SurfaceMesh& model, const LandmarkOptions& options) {
   LandmarkAlignment alignment;
@@ -269,8 +274,7 @@ LandmarkAlignment AlignLandmarks(std::span<const LandmarkPair> pairs, const Pose
     return alignment;
   };
   if (terms.size() < 3) return end(AlignVerdict::kTooFew);
-  if (const glm::dvec3 spread = SpreadOf(used); !(spread.y > kCollinear * spread.x))
-    return end(AlignVerdict::kCollinear);
+  if (IsOnLine(used)) return end(AlignVerdict::kCollinear);
   auto best = BestFit(terms, present.scale, solves_scale, middle, alignment);
   if (!best) return end(AlignVerdict::kCollinear);
 

@@ -79,6 +79,8 @@ LandmarkAlignment AlignLandmarks(std::span<const LandmarkPair> pairs, const Pose
 
 // Standard deviations of the model points along their principal axes, largest first; m.
 glm::dvec3 SpreadOf(std::span<const glm::dvec3> points);
+// Whether the points are too near to one line, or to one point, for a turn about it to be known.
+bool IsOnLine(std::span<const glm::dvec3> points);
 
 // Sentences on wrong pairs, collinear or clustered landmarks, ranges that are guessed, pairs that
 // nothing checks, and the two that contradict each other most where no pose fits. Fills `warnings`

@@ -19,20 +19,34 @@ namespace {
 constexpr double kNearlyCollinear = 0.15, kClustered = 0.25;
 
 constexpr double kLeastContradiction = 0.5e-3;  // m, between two distances
+constexpr double kOffRelief = 3e-3;             // m, of the landmarks from a relief that is a guess
 
 std::string NameOf(std::span<const LandmarkPair> pairs, std::size_t i) {
   return pairs[i].name.empty() ? fmt::format("Pair {}", i + 1)
                                : fmt::format("Pair {} ({})", i + 1, pairs[i].name);
 }
 
-std::string SentenceOf(AlignVerdict verdict, bool keeps_scale) {
+// Landmarks that differ on the model can have one place in the scene, or places on one line.
+bool AreOnLineInModel(std::span<const LandmarkPair> pairs) {
+  std::vector<glm::dvec3> model;
+  for (const LandmarkPair& pair : pairs)
+    if (!pair.is_left_out) model.push_back(pair.x_in_tissue);
+  return IsOnLine(model);
+}
+
+std::string SentenceOf(AlignVerdict verdict, std::span<const LandmarkPair> pairs,
+                       bool keeps_scale) {
   switch (verdict) {
     case AlignVerdict::kAligned:
       return "The landmarks determine the pose.";
     case AlignVerdict::kTooFew:
       return "Three pairs or more are needed; add another landmark.";
     case AlignVerdict::kCollinear:
-      return "The landmarks lie on one line, so the turn about it is not known; add one beside it.";
+      return AreOnLineInModel(pairs)
+                 ? "The landmarks lie on one line, so the turn about it is not known; add one "
+                   "beside it."
+                 : "The places of the landmarks in the scene lie on one line, so the turn about it "
+                   "is not known; place one of them again.";
     case AlignVerdict::kInconsistent:
       return keeps_scale
                  ? "No majority of the pairs agrees on one pose; check each pair, or solve for the "
@@ -41,6 +55,30 @@ std::string SentenceOf(AlignVerdict verdict, bool keeps_scale) {
                    "pair, or add more.";
   }
   return {};
+}
+
+// Perspective may put a tissue of known size before or behind a guessed relief.
+std::optional<std::string> WordsOfRelief(std::span<const LandmarkPair> pairs,
+                                         const LandmarkAlignment& alignment) {
+  double farther = 0;  // m, mean of the pairs whose range was guessed
+  int guessed = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const ScenePoint& point = pairs[i].scene;
+    if (!alignment.residuals[i].is_used || !point.is_guessed) continue;
+    const glm::dvec3 x = alignment.portal_from_tissue * pairs[i].x_in_tissue;
+    farther += glm::distance(x, point.eye) - glm::distance(point.x_in_portal, point.eye);
+    ++guessed;
+  }
+  if (guessed == 0 || !(std::abs(farther) > kOffRelief * guessed)) return std::nullopt;
+  const double mm = MmFromMetres(std::abs(farther) / guessed);
+  return farther < 0 ? fmt::format(
+                           "The tissue lies {:.1f} mm before the relief, whose ranges are guessed; "
+                           "mend the depth there, or solve for the scale.",
+                           mm)
+                     : fmt::format(
+                           "The tissue lies {:.1f} mm behind the relief, whose ranges are guessed; "
+                           "mend the depth there, or solve for the scale.",
+                           mm);
 }
 
 // The two pairs whose distance differs most between the model and the scene. Nothing where each
@@ -80,7 +118,7 @@ const char* ToString(AlignVerdict verdict) {
 
 void DescribeAlignment(std::span<const LandmarkPair> pairs, double model_size,
                        std::optional<double> kept_scale, LandmarkAlignment& alignment) {
-  alignment.sentence = SentenceOf(alignment.verdict, kept_scale.has_value());
+  alignment.sentence = SentenceOf(alignment.verdict, pairs, kept_scale.has_value());
   auto& warnings = alignment.warnings;
   if (alignment.verdict == AlignVerdict::kInconsistent && kept_scale)
     if (auto words = ContradictionOf(pairs, *kept_scale)) warnings.push_back(std::move(*words));
@@ -116,6 +154,8 @@ void DescribeAlignment(std::span<const LandmarkPair> pairs, double model_size,
         fmt::format("The range of {} of {} landmarks was guessed, not measured; check the result "
                     "from a second direction.",
                     guessed, used.size()));
+  if (kept_scale)
+    if (auto words = WordsOfRelief(pairs, alignment)) warnings.push_back(std::move(*words));
   if (used.size() == 3)
     warnings.push_back("Nothing checks three pairs; a fourth would show a wrong one.");
 }

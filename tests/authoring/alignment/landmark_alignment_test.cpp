@@ -133,6 +133,19 @@ TEST(LandmarkAlignment, RefusesWhatDoesNotDetermineAPose) {
   EXPECT_EQ(free.sentence.find("solve for the scale"), std::string::npos) << "it is solved for";
 }
 
+// Said of the landmarks before, which lie well apart on the model.
+TEST(LandmarkAlignment, PlacesOnOneLineOrPointOfTheSceneAreNotALineOfTheModel) {
+  for (const double apart : {0.0, 0.002}) {
+    auto pairs = Pairs(Truth(), {0, 1, 2, 3});
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      pairs[i].scene.x_in_portal = glm::dvec3(static_cast<double>(i) * apart, 0, 0.03);
+    const LandmarkAlignment found = AlignLandmarks(pairs, {}, Block());
+    EXPECT_EQ(found.verdict, AlignVerdict::kCollinear);
+    EXPECT_TRUE(found.sentence.starts_with("The places of the landmarks in the scene lie"))
+        << found.sentence;
+  }
+}
+
 TEST(LandmarkAlignment, WarnsOfLandmarksNearlyOnALine) {
   auto pairs = Pairs(Truth(), {0, 1, 0, 1});
   pairs[2].x_in_tissue = glm::dvec3(0, -4.5, -2) * kMm;

@@ -10,6 +10,7 @@
 #include "authoring/phantom/look/tissue_caster.h"
 #include "authoring/phantom/phantom.h"
 #include "authoring/phantom/shape/cavity.h"
+#include "authoring/project/estimated_depth.h"
 #include "simulation/core/geometry/box3.h"
 #include "simulation/core/random.h"
 
@@ -86,6 +87,17 @@ std::optional<authoring::ScenePoint> Click(const AlignmentCase& one,
   return sight ? authoring::PointOnRelief(one.scene, *sight) : std::nullopt;
 }
 
+// Click on a landmark: in a guessed relief the range is another one than that of what is seen.
+std::optional<authoring::ScenePoint> PlaceLandmark(const AlignmentCase& one,
+                                                   const simulation::ScopeOptics& optics,
+                                                   const simulation::ScopeView& view,
+                                                   const glm::dvec2& pixel) {
+  if (!one.guess) return Click(one, optics, view, pixel);
+  const auto sight = authoring::SightOfScope(optics, view, kPictureSize, pixel);
+  return sight ? authoring::PointOnRelief(*one.guess, *sight, ReliefOrigin::kBrightness)
+               : std::nullopt;
+}
+
 // Vertices that the picture shows, tissue frame.
 std::vector<glm::dvec3> VisibleVertices(const AlignmentCase& one,
                                         const simulation::ScopeOptics& optics,
@@ -128,7 +140,25 @@ std::vector<AlignmentCase> MakeAlignmentCases(int phantoms, bool shows_tissues) 
                                                         authoring::MakeCartilage(cavity)};
     const LoadedScene scene =
         SceneWith(cavity, shows_tissues ? tissues : std::vector<authoring::PhantomTissue>{});
-    for (const auto& tissue : tissues) cases.push_back({scene, tissue});
+    for (const auto& tissue : tissues) cases.push_back({scene, tissue, {}});
+  }
+  return cases;
+}
+
+std::vector<AlignmentCase> MakeGuessedCases(int phantoms) {
+  std::vector<AlignmentCase> cases = MakeAlignmentCases(phantoms);
+  for (int seed = 1; seed <= phantoms; ++seed) {
+    authoring::PhantomOptions options;
+    options.seed = seed;
+    options.size = authoring::PhantomSize::kSmall;
+    const authoring::Phantom phantom = authoring::MakePhantom(options);
+    AlignmentCase* const of_seed = &cases[2 * static_cast<std::size_t>(seed - 1)];
+    LoadedScene guess = of_seed->scene;
+    const authoring::EstimatedDepth estimated = authoring::EstimateDepth(
+        phantom.with_tissues.colour, {}, nullptr, guess.scene.backdrop, {});
+    guess.depth = estimated.depth;
+    guess.depth_sigma = estimated.sigma;
+    of_seed[0].guess = of_seed[1].guess = guess;
   }
   return cases;
 }
@@ -154,7 +184,7 @@ std::vector<Trial> MakeTrials(const std::vector<AlignmentCase>& cases,
     for (const glm::dvec3& x : Spread(visible, count, random)) {
       const glm::dvec2 pixel = PixelOf(optics, view, one.tissue.portal_from_tissue * x);
       const glm::dvec2 noise(Normal(random), Normal(random));
-      const auto point = Click(one, optics, view, pixel + options.click_noise * noise);
+      const auto point = PlaceLandmark(one, optics, view, pixel + options.click_noise * noise);
       if (!point) break;
       LandmarkPair& pair = pairs.emplace_back();
       pair.x_in_tissue =

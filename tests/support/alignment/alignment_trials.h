@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "authoring/alignment/landmark_alignment.h"
@@ -15,9 +16,14 @@ namespace arthro::test {
 struct AlignmentCase {
   LoadedScene scene;
   authoring::PhantomTissue tissue;
+  // The same with the relief that the editor estimates from the brightness of the phantom's
+  // picture. A click takes its range from there, and falls on what `scene` shows.
+  std::optional<LoadedScene> guess;
 };
 // Meniscus and cartilage of phantoms 1 to `phantoms`, in the relief or left out of it.
 std::vector<AlignmentCase> MakeAlignmentCases(int phantoms, bool shows_tissues = true);
+// The same with guessed ranges.
+std::vector<AlignmentCase> MakeGuessedCases(int phantoms);
 
 struct TrialOptions {
   int trials = 1000;
