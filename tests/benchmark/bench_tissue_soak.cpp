@@ -26,9 +26,12 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;     // s
-constexpr int kCutsToReset = 120;       // bites and shavings in one session of a trainee
-constexpr double kHeapGrowth = 1.0;     // MB allowed from the first minute to the last
+constexpr double kFrame = 1.0 / 60;  // s
+constexpr int kCutsToReset = 120;    // bites and shavings in one session of a trainee
+constexpr double kHeapGrowth = 1.0;  // MB allowed from the first minute to the last
+// Not wedged, contacts have up to twice the friction of their push, of which the servo may lose all
+// [coupling.cpp, kWedged].
+constexpr double kServoShare = 100 * 2 * 0.03 / (1 - 2 * 0.03);  // %
 constexpr double kMemoryGrowth = 16.0;  // MB resident, the allocator's own holes included
 
 struct Plan {
@@ -61,10 +64,13 @@ struct Soak {
   std::vector<Minute> minutes;
   std::vector<double> all_ms, uncut_ms, reset_ms;  // processor time of the stepping thread
   std::vector<double> iterations;                  // a step that was not asleep
+  std::vector<double> servo_share;  // %, error of the servo's force at the step's own tip
   int steps = 0, awake = 0, touched = 0, cuts = 0, debris = 0, sessions = 0, inverted = 0;
   int not_finite = 0, faults = 0, unsaid_faults = 0, fallbacks = 0, clamps = 0, unconverged = 0;
   int bad_poses = 0, jumps = 0, deepest_factor = 0;
-  double removed = 0;  // m³
+  double removed = 0;      // m³
+  int slips = 0;           // steps with a tool that slipped off
+  double servo_error = 0;  // N, largest
 };
 
 double HeapMb() {
@@ -88,7 +94,8 @@ Soak Run(const Plan& plan) {
   Hash hash;
   // Room at once: what is noted down is not to look like a leak.
   const auto steps = static_cast<std::size_t>(plan.minutes * plan.minute);
-  for (std::vector<double>* of_steps : {&soak.all_ms, &soak.uncut_ms, &soak.iterations})
+  for (std::vector<double>* of_steps :
+       {&soak.all_ms, &soak.uncut_ms, &soak.iterations, &soak.servo_share})
     of_steps->reserve(steps);
   soak.reset_ms.reserve(steps / kCutsToReset + static_cast<std::size_t>(plan.minutes));
   const auto reset = [&] {
@@ -122,6 +129,11 @@ Soak Run(const Plan& plan) {
     }
     soak.touched += report.contacts > 0;
     soak.cuts += report.was_cut;
+    soak.slips += report.slipped > 0;
+    if (report.tool_force > 0) {
+      soak.servo_share.push_back(100 * report.servo_error / report.tool_force);
+      soak.servo_error = std::max(soak.servo_error, report.servo_error);
+    }
     soak.faults += report.was_reset;
     soak.unsaid_faults += report.was_reset && !coupling.is_faulty;
     soak.inverted += report.step.inverted > 0;
@@ -180,6 +192,10 @@ void Print(const Soak& soak) {
              Quantiles(soak.uncut_ms), Quantiles(soak.reset_ms));
   fmt::print("iterations a step that is awake: {}; oldest factor {} steps\n",
              Quantiles(soak.iterations), soak.deepest_factor);
+  fmt::print(
+      "% of its force by which the servo is off where the step solved it: {}; {:.3f} N at most; {} "
+      "steps slipped\n",
+      Quantiles(soak.servo_share), soak.servo_error, soak.slips);
   fmt::print("{} cuts in {} sessions, {:.1f} mm³ removed, {} pieces of debris\n", soak.cuts,
              soak.sessions, 1e9 * soak.removed, soak.debris);
   fmt::print(
@@ -201,6 +217,8 @@ int Judge(const Plan& plan, const Soak& first, const Soak& second) {
     expect(soak->not_finite == 0, "a position, a normal or a coupling was not a number");
     expect(soak->unsaid_faults == 0, "a body was reset and its coupling did not say so");
     expect(soak->faults == 0, "a body was reset by its solver");
+    expect(soak->servo_share.empty() || std::ranges::max(soak->servo_share) < kServoShare,
+           "the servo's force was off where the step solved it");
     expect(soak->touched > soak->steps / 10, "the hand hardly met the tissue");
     // mm³ a second of a session; a bite of a punch is some 5 mm³.
     expect(1e9 * soak->removed > 0.5 * kFrame * soak->steps, "the hand hardly cut");

@@ -167,8 +167,11 @@ void DeformableBody::Impl::LeaveUnsolved(std::span<const WorldTool> tools, doubl
 
 void DeformableBody::Impl::AddCoupling(int tool, std::span<const ContactPoint> of_tools,
                                        std::span<const ContactResult> of_results,
-                                       ToolCoupling& coupling) noexcept {
-  if (placed[static_cast<std::size_t>(tool)].has_slipped) return;
+                                       ToolCoupling& coupling, BodyReport& report) noexcept {
+  if (placed[static_cast<std::size_t>(tool)].has_slipped) {
+    ++report.slipped;
+    return;
+  }
   const auto [normal, size] = PushOf(of_tools, of_results, tool);
   if (normal == glm::dvec3(0.0)) return;
   const SkinContact& on_skin = shape->skin_contact;
@@ -178,6 +181,15 @@ void DeformableBody::Impl::AddCoupling(int tool, std::span<const ContactPoint> o
                             size > 0.0 ? on_skin.DepthAtRest(capsules, normal) : 0.0};
   AddContacts(of_tools, of_results, tool, touched, options.contact.stiffness,
               spec.portal_from_body.rotation, spec.tissue, coupling);
+  const TissueContact* contact = ContactWith(coupling, spec.tissue);
+  if (contact == nullptr) return;  // others bear more
+  glm::dvec3 force(0.0);
+  for (std::size_t i = 0; i < of_tools.size(); ++i)
+    if (of_tools[i].owner == tool) force -= of_results[i].force;
+  const glm::dvec3 felt = ForceOf(*contact, glm::dvec3(0.0));
+  report.tool_force = std::max(report.tool_force, glm::length(force));
+  report.servo_error =
+      std::max(report.servo_error, glm::distance(felt, spec.portal_from_body.rotation * force));
 }
 
 DeformableBody::DeformableBody(BodySpec spec, const BodyOptions& options)
@@ -274,7 +286,7 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
   // Sets what the servo feels until the next step.
   for (std::size_t i = 0; i < own.tool_count && i < coupling.size(); ++i) {
     own.AddCoupling(static_cast<int>(i), {own.contacts.data(), of_tools}, results.first(of_tools),
-                    coupling[i]);
+                    coupling[i], report);
     const TissueContact* felt = ContactWith(coupling[i], own.spec.tissue);
     own.placed[i].felt = felt != nullptr ? *felt : TissueContact{};
     own.placed[i].felt_at = tools[i].now.portal_from_tool.translation;

@@ -51,7 +51,11 @@ struct BodyReport {
   bool was_reset = false;  // the solver failed and the last good state was restored; or lost
   int contacts = 0;
   double max_speed = 0;  // m/s
-  int factor_age = 0;    // steps
+  // Tools of this step that slipped off, so that the servo feels nothing of it; and over the others
+  // the largest force, N, with the largest error of the servo's force where the step solved it, N.
+  int slipped = 0;
+  double tool_force = 0, servo_error = 0;
+  int factor_age = 0;  // steps
 };
 
 // Volume removed from a body so far, without the author's cuts.

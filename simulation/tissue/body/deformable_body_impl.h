@@ -76,7 +76,8 @@ struct DeformableBody::Impl {
   void TakeTools(std::span<const WorldTool> tools) noexcept;
   bool IsTouchedSoon() const noexcept;
   void AddCoupling(int tool, std::span<const ContactPoint> of_tools,
-                   std::span<const ContactResult> results, ToolCoupling& coupling) noexcept;
+                   std::span<const ContactResult> results, ToolCoupling& coupling,
+                   BodyReport& report) noexcept;
   // Ends a step that cuts without solving: the contacts stay as the motion of the tools leaves
   // them.
   void LeaveUnsolved(std::span<const WorldTool> tools, double dt,

@@ -59,6 +59,21 @@ glm::dvec3 AtMost(const glm::dvec3& across, double most) noexcept {
   return length > most ? most / length * across : across;
 }
 
+struct ContactForce {
+  double push = 0;        // N
+  glm::dvec3 force{0.0};  // push and rub
+};
+ContactForce After(const TissueContact& c, const glm::dvec3& way) noexcept {
+  const double deeper = -glm::dot(c.normal, way);
+  const glm::dvec3 aside = AtMost(way + deeper * c.normal, kBendReach);
+  const glm::dvec3 bend = c.curvature * aside;
+  const double size = PushAt(c, c.depth + deeper + 0.5 * glm::dot(aside, bend));
+  if (!(size > 0.0)) return {};
+  const glm::dvec3 normal = glm::normalize(c.normal - bend);
+  const glm::dvec3 pull = c.rub - c.spring * way;
+  return {size, size * normal + AtMost(pull - glm::dot(pull, normal) * normal, c.friction * size)};
+}
+
 // Returns the fraction of the force left after a time without a new coupling.
 double FadeFactor(const CouplingBlend& blend) noexcept {
   return std::clamp(1.0 - (blend.passed - kSilence) / kFade, 0.0, 1.0);
@@ -184,6 +199,10 @@ const TissueContact* ContactWith(const ToolCoupling& coupling, int tissue) noexc
   return nullptr;
 }
 
+glm::dvec3 ForceOf(const TissueContact& contact, const glm::dvec3& way) noexcept {
+  return After(contact, way).force;
+}
+
 CoupledForce ForceOf(const ToolCoupling& coupling, const glm::dvec3& tip) noexcept {
   CoupledForce result;
   if (coupling.is_faulty) return result;
@@ -191,17 +210,10 @@ CoupledForce ForceOf(const ToolCoupling& coupling, const glm::dvec3& tip) noexce
   const glm::dvec3 way = tip - coupling.tip;
   for (int i = 0; i < std::clamp(coupling.count, 0, kMaxTouched); ++i) {
     const TissueContact& c = coupling.contact[static_cast<std::size_t>(i)];
-    const double deeper = -glm::dot(c.normal, way);
-    const glm::dvec3 aside = AtMost(way + deeper * c.normal, kBendReach);
-    const glm::dvec3 bend = c.curvature * aside;
-    const double size = PushAt(c, c.depth + deeper + 0.5 * glm::dot(aside, bend));
-    if (!(size > 0.0)) continue;
-    const glm::dvec3 normal = glm::normalize(c.normal - bend);
-    const glm::dvec3 pull = c.rub - c.spring * way;
-    result.force +=
-        size * normal + AtMost(pull - glm::dot(pull, normal) * normal, c.friction * size);
-    if (size > largest) {
-      largest = size;
+    const auto [push, force] = After(c, way);
+    result.force += force;
+    if (push > largest) {
+      largest = push;
       result.tissue = c.tissue;
     }
   }

@@ -87,6 +87,8 @@ struct CoupledForce {
   glm::dvec3 force{0.0};  // on the tool's tip
   int tissue = -1;        // tissue with the largest part; −1: none
 };
+// Evaluates one contact after a motion of the tip by `way`, m, since the step.
+glm::dvec3 ForceOf(const TissueContact& contact, const glm::dvec3& way) noexcept;
 // Evaluates the coupling. Returns zero for a faulty coupling or a tip that is not finite.
 CoupledForce ForceOf(const ToolCoupling& coupling, const glm::dvec3& tip) noexcept;
 
