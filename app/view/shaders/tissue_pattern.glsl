@@ -38,8 +38,11 @@ const float kBundleHeight = 0.145, kBundleTint = 0.16;  // in its widths; share 
 const float kEdge = 0.30;                // share of the width that the free edge is pale
 const float kRedFrom = 0.38, kRedTo = 0.85;
 const float kRedUneven = 0.16;
-const float kVesselRate = 850.0;         // 1/m
-const float kVesselHalf = 28e-6;         // m, half the width of a capillary
+const float kVesselRate = 700.0;         // 1/m
+const float kVesselHalf = 42e-6;         // m, half the largest width of a capillary
+const float kTaper = 0.3;                // share of its width at an end
+const float kWanderRate = 900.0, kWander = 0.06;  // 1/m; cells of the capillaries' noise
+const float kLevel = 0.30;               // slope per cell below which there is no capillary
 const float kCutHeight = 0.3, kCutTint = 0.34;           // bundles that a cut opens
 const float kFibril = 3.3, kFibrilTint = 0.14;           // fibrils per bundle; share of the colour
 #endif
@@ -85,15 +88,20 @@ Pattern patternAt(vec3 normal) {
               smoothstep(kRedFrom, kRedTo, rim + kRedUneven * coarseNoise + 0.05 * sheaf);
   p.tint *= mix(vec3(1.0), rimTint, red);
   p.tint *= mix(vec3(1.0), rootTint, root);
-  // Capillaries: lines of equal width along the zeros of a noise, which another one interrupts.
+  // Capillaries: lines along the zeros of a noise, which wander by another one and taper towards
+  // their ends. Where the noise is level its zeros are no line.
   if (red > 0.02) {
-    vec3 net = grain * kVesselRate * vec3(0.55, 1.0, 0.8) + 0.35 * vec3(sheaf, strand, 0.0);
-    vec4 value = noise(net);
-    float away = abs(value.w) / (kVesselRate * max(length(value.xyz), 0.2));
+    vec4 wander = noise(grain * kWanderRate + 7.3);
+    vec4 value = noise(grain * kVesselRate * vec3(0.55, 1.0, 0.8) + kWander * wander.xyz);
+    float level = length(value.xyz);
+    float away = abs(value.w) / (kVesselRate * max(level, 0.1));
     float pixel = length(fwidth(grain));
-    float line = 1.0 - smoothstep(kVesselHalf, kVesselHalf + max(pixel, 0.6 * kVesselHalf), away);
-    float open = smoothstep(-0.1, 0.35, noise(grain * 420.0 + 7.3).w);
-    p.vessel = 0.9 * red * line * open * (1.0 - smoothstep(40e-6, 160e-6, pixel));
+    float open = smoothstep(-0.9, 0.05, coarseNoise + 0.4 * wander.w) *
+                 smoothstep(kLevel, 3.0 * kLevel, level);
+    float halfWidth = kVesselHalf * mix(kTaper, 1.0, open);
+    float line = 1.0 - smoothstep(0.4 * halfWidth, 1.4 * halfWidth + pixel, away);
+    p.vessel =
+        red * line * smoothstep(0.0, 0.5, open) * (1.0 - smoothstep(40e-6, 160e-6, pixel));
   }
   p.gloss *= 1.0 - 0.5 * fresh;
 #elif defined(HYALINE)
