@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "authoring/depth/border_taper.h"
 #include "authoring/depth/grey_plane.h"
 #include "authoring/depth/highlights.h"
 #include "authoring/depth/imaged_area.h"
@@ -174,6 +175,11 @@ DepthMap ReliefByDistance(const std::vector<float>& distance, const GreyPlane& p
   return depth;
 }
 
+void Taper(DepthMap& depth, const GreyPlane& plane, const DepthOptions& options) {
+  TaperToBorder(depth, plane.imaged,
+                0.01 * options.border_taper * std::min(plane.width, plane.height));
+}
+
 }  // namespace
 
 void CheckDepthOptions(const DepthOptions& options) {
@@ -230,6 +236,7 @@ DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& option
     DepthMap depth =
         ReliefByDistance(DistanceFromLight(panorama, plane, highlight, options, progress), plane,
                          imaged, options, told);
+    Taper(depth, plane, options);
     progress.Step("done", 1.0);
     return depth;
   }
@@ -252,6 +259,7 @@ DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& option
   told.low_grey = low / 256.0;
   told.high_grey = high / 256.0;
   DepthMap depth = Apply(ReliefByGrey(low, high, options), plane);
+  Taper(depth, plane, options);
   progress.Step("done", 1.0);
   return depth;
 }

@@ -36,6 +36,7 @@ struct DepthOptions {
   int texture_size = 16;
   int surround_threshold = 12;
   int border_margin = 3;
+  double border_taper = 6.0;
   bool fill_highlights = true;
   bool correct_tissue = true;
   double field_of_view = RadiansFromDegrees(90);
@@ -78,6 +79,10 @@ struct DepthOptions {
       "Pixels darker than this and connected to the picture's edge are surround, not tissue.");
     v("border_margin", border_margin, Range{0, 100}, "px",
       "Width of the rim of the imaged area that is left out.");
+    v("border_taper", border_taper, Range{0, 50}, "%",
+      "Band along the border of the imaged area in which the relief goes over to its broad mean, "
+      "as "
+      "a share of the picture's shorter side. What the border cuts has no known shape. 0: none.");
     v("fill_highlights", fill_highlights, Any{}, "",
       "Fill highlights from their surroundings, so that they make no peaks.");
     v("correct_tissue", correct_tissue, Any{}, "",
