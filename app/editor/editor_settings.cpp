@@ -21,6 +21,8 @@ WindowOptions WindowFrom(const EditorOptions& options, double frame_time) {
   window.width = options.width, window.height = options.height;
   window.visible = !options.hidden;
   window.scale = options.scale;
+  if (const UiScale chosen = SettingsFrom(options).interface_scale; chosen != UiScale::kAutomatic)
+    window.scale = ScaleOf(chosen, {});
   if (options.script) window.fixed_step = frame_time;
   return window;
 }

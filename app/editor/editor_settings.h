@@ -13,7 +13,8 @@
 
 namespace arthro::app {
 
-// `frame_time`: s, step of a script's frames, which are the same whatever the machine's speed.
+// The window opens at the interface scale that was chosen. `frame_time`: s, step of a script's
+// frames, which are the same whatever the machine's speed.
 WindowOptions WindowFrom(const EditorOptions& options, double frame_time);
 // Folder of copies of unsaved work; empty: none.
 std::filesystem::path FolderOfCopies(const EditorOptions& options);

@@ -85,7 +85,7 @@ constexpr Command kCommands[] = {
      {},
      MayOpenGate,
      OpenChosenGate,
-     "First choose a trainee and an exercise, and give your name and a reason."},
+     "First choose a trainee and an exercise, and give your code and a reason."},
     {"rate-attempt",
      "Rate…",
      "Fill in a rating form beside the look back.",

@@ -79,6 +79,15 @@ TEST_F(EditorWindow, AHighDensityScreenIsTheSameWindowTwiceAsLarge) {
   EXPECT_EQ(ReadColourImage(shot).width, 2560);
 }
 
+// It opened at the size of scale 1, with half of its words cut off.
+TEST_F(EditorWindow, TheWindowOpensAtTheScaleThatWasChosen) {
+  const auto shot = temp / "shot.png";
+  const auto result = RunWindow("edit " + scene.string() + " --interface-scale 2",
+                                "click Tissue\nshot " + shot.string(), "2560x1600x24");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(ReadColourImage(shot).width, 2560);
+}
+
 TEST_F(EditorWindow, ThePictureAtRestIsTheSameWithASmallMovingPicture) {
   Drive(R"(
 pose scope 0.015 -0.2 0 0

@@ -58,11 +58,14 @@ void Cell(Ui& ui, EditorState& state, const CohortBoard& board, int row, int exe
       board.rows[static_cast<std::size_t>(row)].cells[static_cast<std::size_t>(exercise)];
   const bool is_chosen = board.row == row && board.exercise == exercise;
   const std::string tries = cell.tries == 0 ? "–" : fmt::format("{}/{}", cell.passes, cell.tries);
+  // Both lines are the cell.
+  const float top = ImGui::GetCursorPosY(), line = ImGui::GetTextLineHeightWithSpacing();
   if (ListEntry(ui,
                 fmt::format("{}##{} {}", tries, board.rows[static_cast<std::size_t>(row)].code,
                             exercise + 1),
-                is_chosen))
+                is_chosen, 0, {0, line + ImGui::GetTextLineHeight()}))
     ChooseCell(state, row, exercise);
+  ImGui::SetCursorPosY(top + line);
   if (cell.is_gate_opened)
     ColouredText(ui, "opened", kWarning);
   else if (cell.is_gate_passed)

@@ -1,10 +1,7 @@
 // Step 5 in the editor, and the panel beside the large picture while a practice runs.
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <span>
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -111,29 +108,6 @@ double Taken(const EditorState& state) {
   return removed;
 }
 
-// Commands side by side, each as wide as its words ask; lit while what they stand for is on. In two
-// rows where there is no room for the words.
-using CommandState = std::pair<const char*, bool>;
-void CommandRow(Ui& ui, EditorState& state, std::span<const CommandState> row) {
-  const float gap = ui.Px(6), count = static_cast<float>(row.size());
-  float spare = ImGui::GetContentRegionAvail().x - gap * (count - 1);
-  for (const auto& [id, is_on] : row) spare -= ui.WidthOf(CommandOf(state, id).words);
-  if (spare < 0 && row.size() > 1) {
-    CommandRow(ui, state, row.first((row.size() + 1) / 2));
-    return CommandRow(ui, state, row.last(row.size() / 2));
-  }
-  bool is_first = true;
-  for (const auto& [id, is_on] : row) {
-    if (!is_first) ImGui::SameLine(0, gap);
-    is_first = false;
-    const float width = ui.WidthOf(CommandOf(state, id).words) + spare / count;
-    CommandToggle(ui, state, id, is_on, {width, ui.Px(kButton)});
-  }
-}
-void CommandRow(Ui& ui, EditorState& state, std::initializer_list<CommandState> row) {
-  CommandRow(ui, state, std::span(row.begin(), row.size()));
-}
-
 // How the camera's head is held, and by how much it was turned from there.
 void CameraHead(Ui& ui, EditorState& state) {
   const double turn = DegreesFromRadians(state.steps.practice->head.turn);
@@ -145,7 +119,8 @@ void CameraHead(Ui& ui, EditorState& state) {
              {{"head-with-scope", !state.steps.practice->head.is_upright},
               {"head-upright", state.steps.practice->head.is_upright},
               {"head-left", false},
-              {"head-right", false}});
+              {"head-right", false}},
+             ui.Px(kButton));
   ImGui::PopButtonRepeat();
 }
 
@@ -158,7 +133,8 @@ void Instruments(Ui& ui, EditorState& state) {
              {{"instrument-probe", kind == ToolKind::kProbe},
               {"instrument-punch", kind == ToolKind::kPunch},
               {"instrument-shaver", kind == ToolKind::kShaver},
-              {"instrument-grasper", kind == ToolKind::kGrasper}});
+              {"instrument-grasper", kind == ToolKind::kGrasper}},
+             ui.Px(kButton));
   if (const std::size_t offered = simulation::OfferedInstruments(state.document().scene).size();
       offered < static_cast<std::size_t>(ToolKind::kGrasper))
     QuietText(ui, fmt::format("This scene offers {} of {}; the rig page of step 5 offers more.",
@@ -289,10 +265,8 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   int column = 0;
   for (const int degrees : {0, 30, 70, 90}) {
     if (column++ > 0) ImGui::SameLine(0, ui.Px(6));
-    const Command& command = CommandOf(state, "view-" + std::to_string(degrees));
     const bool chosen = std::abs(practice.view_angle() - RadiansFromDegrees(degrees)) < 1e-6;
-    if (ToggleButton(ui, command.words, chosen, true, {width, ui.Px(kButton)}, command.help))
-      Run(state, command);
+    CommandToggle(ui, state, "view-" + std::to_string(degrees), chosen, {width, ui.Px(kButton)});
   }
   Gap(ui);
   CameraHead(ui, state);
@@ -302,9 +276,10 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   const bool is_disturbed = state.steps.practice->disturbing.now.is_any();
   if (Taken(state) > 0)
     CommandRow(ui, state,
-               {{"reset-hands", false}, {"disturbances", is_disturbed}, {"reset-tissues", false}});
+               {{"reset-hands", false}, {"disturbances", is_disturbed}, {"reset-tissues", false}},
+               ui.Px(kButton));
   else
-    CommandRow(ui, state, {{"reset-hands", false}, {"disturbances", is_disturbed}});
+    CommandRow(ui, state, {{"reset-hands", false}, {"disturbances", is_disturbed}}, ui.Px(kButton));
   Gap(ui);
   // Missing devices are more urgent than the hint, and there is room for one of them.
   if (!MissingDevices(ui, state) && !ScreenNews(ui, state)) {
@@ -325,11 +300,13 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
               {"outside", state.steps.practice->shows_outside},
               {"full-screen", state.full_screen},
               {"budget", false},
-              {"help", false}});
+              {"help", false}},
+             ui.Px(kButton));
   CommandRow(ui, state,
              {{"trainee-screen", state.steps.practice->trainee_screen.is_wanted},
               {"devices", false},
-              {"leave-practice", false}});
+              {"leave-practice", false}},
+             ui.Px(kButton));
 }
 
 }  // namespace arthro::app

@@ -213,19 +213,9 @@ void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
 
 void TissuePanel(Ui& ui, EditorState& state, const std::function<void()>& below_poke) {
   const authoring::Document document = state.document();  // a copy: edits below move it
-  // Widths of the words, plus equal shares of the remaining space.
-  const Command& library = CommandOf(state, "library");
-  const auto text = [&](const char* id) { return ui.WidthOf(CommandOf(state, id).words); };
-  const float share = (ImGui::GetContentRegionAvail().x - 2 * ui.Px(6) - text("import-surface") -
-                       text("add-solid") - text("library")) /
-                      3;
-  CommandButton(ui, state, "import-surface", {text("import-surface") + share, 0});
-  ImGui::SameLine(0, ui.Px(6));
-  CommandButton(ui, state, "add-solid", {text("add-solid") + share, 0});
-  ImGui::SameLine(0, ui.Px(6));
-  CommandToggle(ui, state, "library", state.steps.tissue->shelf->is_open,
-                {text("library") + share, 0});
-  if (state.steps.tissue->shelf->is_open && library.enabled(state))
+  CommandRow(ui, state,
+             {{"import-surface"}, {"add-solid"}, {"library", state.steps.tissue->shelf->is_open}});
+  if (state.steps.tissue->shelf->is_open && CommandOf(state, "library").enabled(state))
     return TissueLibraryFields(ui, state);
   const auto& tissues = document.scene.tissues;
   if (tissues.empty()) {
@@ -263,15 +253,19 @@ void TissuePanel(Ui& ui, EditorState& state, const std::function<void()>& below_
     pages.insert(pages.begin() + 1, {TissuePage::kSolid, "Solid"});
   else if (state.steps.tissue->page == TissuePage::kSolid)
     state.steps.tissue->page = TissuePage::kPlace;
-  // Widths of the words, plus equal shares of the remaining space; two rows of three for a solid.
-  const std::size_t in_row = is_solid ? 3 : pages.size();
+  // Widths of the words, plus equal shares of the remaining space; two rows of three for a solid,
+  // and where there is no room for the words.
   const float room = ImGui::GetContentRegionAvail().x;
+  float words_width = static_cast<float>(pages.size() - 1) * ui.Px(4);
+  for (const auto& [page, words] : pages) words_width += ui.WidthOf(words);
+  const std::size_t in_row = is_solid || words_width > room ? 3 : pages.size();
   for (std::size_t i = 0; i < pages.size(); ++i) {
     const auto [page, words] = pages[i];
     const std::size_t first = i / in_row * in_row;
-    float free = room - static_cast<float>(in_row - 1) * ui.Px(4);
-    for (std::size_t k = first; k < first + in_row; ++k) free -= ui.WidthOf(pages[k].second);
-    const float page_width = ui.WidthOf(words) + free / static_cast<float>(in_row);
+    const std::size_t here = std::min(in_row, pages.size() - first);
+    float free = room - static_cast<float>(here - 1) * ui.Px(4);
+    for (std::size_t k = first; k < first + here; ++k) free -= ui.WidthOf(pages[k].second);
+    const float page_width = ui.WidthOf(words) + free / static_cast<float>(here);
     if (i != first) ImGui::SameLine(0, ui.Px(4));
     if (ToggleButton(ui, words, state.steps.tissue->page == page, true, {page_width, 0})) {
       if (state.steps.tissue->page != page)
