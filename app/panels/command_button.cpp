@@ -1,7 +1,11 @@
 #include "app/panels/command_button.h"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <string>
+
+#include <imgui.h>
 
 namespace arthro::app {
 
@@ -31,11 +35,16 @@ void Row(Ui& ui, EditorState& state, std::span<const CommandState> row, float he
     Row(ui, state, row.first((row.size() + 1) / 2), height);
     return Row(ui, state, row.last(row.size() / 2), height);
   }
+  // In the middle of its button, also where there is less room beside a word than in others.
+  const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                      {std::min(padding.x, std::floor(0.5f * spare / count)), padding.y});
   for (const CommandState& command : row) {
     if (command.id != row.front().id) ImGui::SameLine(0, gap);
     const float width = ui.WidthOf(CommandOf(state, command.id).words) + spare / count;
     CommandToggle(ui, state, command.id, command.is_on, {width, height});
   }
+  ImGui::PopStyleVar();
 }
 
 }  // namespace

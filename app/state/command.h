@@ -25,8 +25,8 @@ struct Command {
   Shortcut shortcut, other_shortcut = {};
   bool (*enabled)(const EditorState&);
   void (*run)(EditorState&);
-  const char* needs =
-      "";  // sentence: why it cannot be called, where nothing else stands in its way
+  // Sentence that says why it cannot be called, where nothing else stands in its way.
+  const char* needs = "";
 };
 
 const Command& CommandOf(const EditorState& state,

@@ -254,7 +254,7 @@ constexpr Command kCommands[] = {
        return Idle(state) && HasPicture(state) && state.document().is_depth_imported;
      },
      MakeDepth,
-     "The depth is made from the picture already."},
+     "There is no imported depth map to replace."},
 };
 
 }  // namespace
