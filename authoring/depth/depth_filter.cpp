@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "authoring/depth/border_taper.h"
+#include "authoring/depth/border/border_taper.h"
 #include "authoring/depth/grey_plane.h"
 #include "authoring/depth/highlights.h"
 #include "authoring/depth/imaged_area.h"

@@ -1,4 +1,4 @@
-#include "authoring/depth/border_taper.h"
+#include "authoring/depth/border/border_taper.h"
 
 #include <cmath>
 #include <limits>

@@ -132,7 +132,8 @@ void ExpectTheStepsForce(const std::string& name, const BodySpec& spec) {
   EXPECT_EQ(lost, 0);
 }
 
-// Some hundred quadratic tetrahedra, as a tissue has that is deformed at display rate.
+// Options for some hundreds of quadratic tetrahedra, as a tissue has that is deformed at display
+// rate.
 TetrahedralizeOptions Coarse(int max_triangles) {
   TetrahedralizeOptions options;
   options.order = 2;
