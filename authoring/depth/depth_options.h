@@ -81,8 +81,8 @@ struct DepthOptions {
       "Width of the rim of the imaged area that is left out.");
     v("border_taper", border_taper, Range{0, 50}, "%",
       "Band along the border of the imaged area in which the relief goes over to its broad mean, "
-      "as "
-      "a share of the picture's shorter side. What the border cuts has no known shape. 0: none.");
+      "as a share of the picture's shorter side. What the border cuts has no known shape. 0: "
+      "none.");
     v("fill_highlights", fill_highlights, Any{}, "",
       "Fill highlights from their surroundings, so that they make no peaks.");
     v("correct_tissue", correct_tissue, Any{}, "",
