@@ -43,7 +43,7 @@ const std::vector<FileFilter>& SceneFilters() {
   return filters;
 }
 
-constexpr Command kCommands[] = {
+constexpr Command kFileCommands[] = {
     {"new",
      "New",
      "Begin an empty scene.",
@@ -152,6 +152,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> FileCommands() { return kCommands; }
+std::span<const Command> FileCommands() { return kFileCommands; }
 
 }  // namespace arthro::app

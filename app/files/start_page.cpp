@@ -69,7 +69,7 @@ void OpenLibrary(State& state) {
   state.steps.tissue->shelf->is_open = true;
 }
 
-constexpr Command kCommands[] = {
+constexpr Command kStartPageCommands[] = {
     {"start-page",
      "Start",
      "Show the start page, or go back to the scene.",
@@ -119,7 +119,7 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> StartCommands() { return kCommands; }
+std::span<const Command> StartCommands() { return kStartPageCommands; }
 
 StartScene ReadStartScene(const fs::path& place) {
   StartScene scene;

@@ -6,7 +6,7 @@
 namespace arthro::app {
 namespace {
 
-constexpr std::size_t kMostKept = 400;  // pictures; 11 MB
+constexpr std::size_t kMostPictures = 400;  // pictures; 11 MB
 
 }  // namespace
 
@@ -18,7 +18,7 @@ bool WantsStepPicture(const EditorState& state) {
 void KeepStepPicture(EditorState& state, const ColourImage& seen) {
   if (seen.empty()) return;
   // Ids grow, so the first ones are the oldest.
-  if (state.step_pictures.size() >= kMostKept)
+  if (state.step_pictures.size() >= kMostPictures)
     state.step_pictures.erase(state.step_pictures.begin());
   state.step_pictures[state.history.StateId()] =
       Share(authoring::Resized(seen, kStepPictureSide, kStepPictureSide));

@@ -2,6 +2,7 @@
 // values, limits, marks, and one position that a click sets.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "app/panels/widgets.h"
 
 namespace arthro::app {
+
+inline constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();  // breaks a curve
 
 // Step of 1, 2 or 5 times a power of ten that divides the span into at most `most` parts.
 double RoundStep(double span, int most);

@@ -14,6 +14,8 @@
 
 namespace arthro::app {
 
+inline constexpr double kThumbButton = 44;  // px; height of a button that a thumb hits
+
 // Drawing context of a panel; lives for one frame.
 struct Ui {
   WidgetRegistry& widgets;

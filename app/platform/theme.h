@@ -34,11 +34,12 @@ Theme CurrentTheme();  // the theme of ApplyTheme, read from ImGui's style
 unsigned OnGround(unsigned colour);
 
 // Colours that carry a meaning, 0xAABBGGRR as ImDrawList takes them.
-inline constexpr unsigned kAccent = 0xFFD6B24A;   // teal blue: chosen, active
-inline constexpr unsigned kGood = 0xFF7CC47A;     // green
-inline constexpr unsigned kWarning = 0xFF4DB8F2;  // amber
-inline constexpr unsigned kBad = 0xFF6A6AF0;      // red
-inline constexpr unsigned kQuiet = 0xFFB4AAA2;    // secondary text
-inline constexpr unsigned kBright = 0xFFEEEBE9;   // numbers
+inline constexpr unsigned kAccent = 0xFFD6B24A;      // teal blue: chosen, active
+inline constexpr unsigned kMarkShadow = 0xC0000000;  // about a mark on a picture
+inline constexpr unsigned kGood = 0xFF7CC47A;        // green
+inline constexpr unsigned kWarning = 0xFF4DB8F2;     // amber
+inline constexpr unsigned kBad = 0xFF6A6AF0;         // red
+inline constexpr unsigned kQuiet = 0xFFB4AAA2;       // secondary text
+inline constexpr unsigned kBright = 0xFFEEEBE9;      // numbers
 
 }  // namespace arthro::app

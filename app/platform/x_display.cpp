@@ -49,16 +49,16 @@ int EndProgram(Display*) {
 int PassOver(Display*, XErrorEvent*) { return 0; }
 
 // The window that the property of `window` names; 0: none.
-Window NamedBy(Display* display, Window window, Atom property) {
+::Window NamedBy(Display* display, ::Window window, Atom property) {
   Atom type = 0;
   int format = 0;
   unsigned long count = 0, left = 0;
   unsigned char* bytes = nullptr;
   const int status = XGetWindowProperty(display, window, property, 0, 1, False, XA_WINDOW, &type,
                                         &format, &count, &left, &bytes);
-  Window named = 0;
+  ::Window named = 0;
   if (status == Success && type == XA_WINDOW && format == 32 && count == 1)
-    named = *reinterpret_cast<Window*>(bytes);
+    named = *reinterpret_cast<::Window*>(bytes);
   if (bytes != nullptr) XFree(bytes);
   return named;
 }
@@ -71,10 +71,10 @@ std::shared_ptr<void> RemoveStaleWindowManagerMark() {
   if (display == nullptr) return nullptr;
   const auto previous = XSetErrorHandler(PassOver);
   const Atom mark = XInternAtom(display, "_NET_SUPPORTING_WM_CHECK", False);
-  const Window root = DefaultRootWindow(display);
+  const ::Window root = DefaultRootWindow(display);
   // No window manager may start between the look and the removal.
   XGrabServer(display);
-  if (const Window named = NamedBy(display, root, mark);
+  if (const ::Window named = NamedBy(display, root, mark);
       named != 0 && NamedBy(display, named, mark) == 0)
     XDeleteProperty(display, root, mark);
   XUngrabServer(display);

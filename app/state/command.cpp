@@ -39,6 +39,8 @@ std::string WordsOf(const Shortcut& shortcut) {
 bool Always(const EditorState&) { return true; }
 bool InEditor(const EditorState& state) { return !state.practice && !state.practice_only; }
 bool Idle(const EditorState& state) { return InEditor(state) && !state.jobs.busy(); }
+bool HasPictureAndTime(const EditorState& state) { return Idle(state) && HasPicture(state); }
+bool Practising(const EditorState& state) { return state.practice.has_value(); }
 bool HasPicture(const EditorState& state) {
   return InEditor(state) && state.document().panorama != nullptr;
 }

@@ -37,6 +37,8 @@ bool Always(const EditorState& state);
 bool InEditor(const EditorState& state);
 bool Idle(const EditorState& state);  // and no work is under way
 bool HasPicture(const EditorState& state);
+bool HasPictureAndTime(const EditorState& state);  // and no work is under way
+bool Practising(const EditorState& state);
 // Sentence that says why it cannot be called now; "" where it can, or where that is not known.
 const char* WhyDisabled(const EditorState& state, const Command& command);
 

@@ -14,7 +14,7 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr const char* kSchema = "arthroscene.align/1";
+constexpr const char* kReportSchema = "arthroscene.align/1";
 constexpr Range kDistance{0, 10}, kPart{0, 1}, kTurn{0, 2 * std::numbers::pi},
     kCount{0, 1'000'000'000};
 const char* const kVerdicts[] = {"aligned", "too_few", "collinear", "inconsistent"};
@@ -69,7 +69,7 @@ struct Landmarks {
   }
 };
 
-struct Fit {
+struct FitInFile {
   double median = 0, within = 0, behind = 0, deepest = 0;
   template <class V>
   void Visit(V&& v) {
@@ -86,7 +86,7 @@ struct Surface {
   std::string sentence, side;
   int steps = 0, points = 0;
   std::optional<double> rms;
-  std::optional<Fit> before, after;
+  std::optional<FitInFile> before, after;
   template <class V>
   void Visit(V&& v) {
     v("aligned", is_aligned, Required{Any{}}, "", "Whether there is a result.");
@@ -125,7 +125,7 @@ struct PartWriter {
   template <class T, class Rule>
   void operator()(const char* name, T& field, const Rule& rule, const char* unit,
                   const char* help) const {
-    if constexpr (std::is_same_v<T, std::optional<Fit>>) {
+    if constexpr (std::is_same_v<T, std::optional<FitInFile>>) {
       if (!field) return;
       Json& own = json[name] = Json::object();
       field->Visit(FieldWriter(own));
@@ -171,7 +171,7 @@ Landmarks PartOf(std::span<const LandmarkPair> pairs, const LandmarkAlignment& f
   return part;
 }
 
-Fit PartOf(const ReliefFit& fit) { return {fit.median, fit.within, fit.behind, fit.deepest}; }
+FitInFile PartOf(const ReliefFit& fit) { return {fit.median, fit.within, fit.behind, fit.deepest}; }
 
 Surface PartOf(const SurfaceAlignment& found) {
   Surface part;
@@ -192,7 +192,7 @@ Surface PartOf(const SurfaceAlignment& found) {
 std::string AlignReportText(const std::string& tissue, std::span<const LandmarkPair> pairs,
                             const std::optional<LandmarkAlignment>& landmarks,
                             const std::optional<SurfaceAlignment>& surface) {
-  Json json{{"schema", kSchema}, {"tissue", tissue}};
+  Json json{{"schema", kReportSchema}, {"tissue", tissue}};
   if (surface && surface->is_aligned)
     json["pose"] = JsonOf(surface->portal_from_tissue);
   else if (landmarks && landmarks->is_aligned())
@@ -203,7 +203,7 @@ std::string AlignReportText(const std::string& tissue, std::span<const LandmarkP
 }
 
 std::string AlignReportSchemaText() {
-  Json json = FileSchema(kSchema, "Arthroscene alignment report, version 1",
+  Json json = FileSchema(kReportSchema, "Arthroscene alignment report, version 1",
                          "What `arthroscene align --report` writes. Lengths in metres, angles in "
                          "degrees under keys that end in _deg.",
                          SchemaOfFields(Report()));

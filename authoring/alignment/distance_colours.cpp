@@ -8,7 +8,6 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kReach = 0.02;  // m, as for the numbers of the fit
 // Ends of a diverging scale that colour-blind people tell apart.
 constexpr glm::dvec3 kOn{0.97, 0.97, 0.95}, kBefore{0.13, 0.40, 0.75}, kBehind{0.75, 0.13, 0.15};
 
@@ -27,7 +26,7 @@ std::vector<glm::dvec3> DistanceColours(const ReliefTarget& relief, const Surfac
   for (const glm::dvec3& x : surface.vertices) points.push_back(pose * x);
   std::vector<glm::dvec3> colours;
   colours.reserve(points.size());
-  for (const double distance : DistancesFrom(relief, points, kReach))
+  for (const double distance : DistancesFrom(relief, points, kReliefReach))
     colours.push_back(ColourOfDistance(distance));
   return colours;
 }

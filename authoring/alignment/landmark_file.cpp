@@ -14,7 +14,7 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr const char* kSchema = "arthroscene.pairs/1";
+constexpr const char* kPairsSchema = "arthroscene.pairs/1";
 
 std::optional<Sight> SightOf(const PairInFile& pair, const LoadedScene& scene) {
   if (pair.panorama) return SightOfPanorama(scene.scene.backdrop, pair.panorama->pixel);
@@ -41,7 +41,7 @@ PairsFile ParsePairs(const std::string& text, const std::filesystem::path& file)
                             "must have one partner: panorama, scope or place");
     }
   };
-  return FromJsonFile<PairsFile>(text, kSchema, "pairs of landmarks", file, check);
+  return FromJsonFile<PairsFile>(text, kPairsSchema, "pairs of landmarks", file, check);
 }
 
 PairsFile ReadPairs(const std::filesystem::path& file) {
@@ -49,7 +49,7 @@ PairsFile ReadPairs(const std::filesystem::path& file) {
 }
 
 std::string PairsSchemaText() {
-  auto json = FileSchema(kSchema, "Arthroscene pairs of landmarks, version 1",
+  auto json = FileSchema(kPairsSchema, "Arthroscene pairs of landmarks, version 1",
                          "Points of a tissue's model and their partners in a scene, for "
                          "`arthroscene align`. Lengths in metres, angles in degrees under keys "
                          "that end in _deg. This schema cannot express that a pair has exactly one "

@@ -16,10 +16,10 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr const char* kSchema = "arthroscene.placing/1";
+constexpr const char* kNotesSchema = "arthroscene.placing/1";
 
 // The notes as JSON has them.
-struct PairInFile {
+struct PairInNotes {
   LandmarkPair pair;
   template <class V>
   void Visit(V&& v) {
@@ -40,9 +40,9 @@ struct PairInFile {
   }
 };
 
-struct LandmarksInFile {
+struct LandmarksInNotes {
   TissueLandmarks own;  // without its pairs
-  std::vector<PairInFile> pairs;
+  std::vector<PairInNotes> pairs;
   template <class V>
   void Visit(V&& v) {
     v("tissue", own.tissue, Required{Any{}}, "", "Name of the tissue.");
@@ -63,7 +63,7 @@ struct ImportInFile {
 };
 
 struct NotesInFile {
-  std::vector<LandmarksInFile> landmarks;
+  std::vector<LandmarksInNotes> landmarks;
   std::vector<ImportInFile> imports;
   template <class V>
   void Visit(V&& v) {
@@ -194,10 +194,10 @@ std::vector<LandmarkPair> OnRelief(std::vector<LandmarkPair> pairs, const Loaded
 
 std::string NotesText(const PlacingNotes& notes) {
   nlohmann::ordered_json json;
-  json["schema"] = kSchema;
+  json["schema"] = kNotesSchema;
   NotesInFile in_file;
   for (const TissueLandmarks& own : notes.landmarks) {
-    LandmarksInFile& entry = in_file.landmarks.emplace_back();
+    LandmarksInNotes& entry = in_file.landmarks.emplace_back();
     entry.own.tissue = own.tissue;
     entry.own.solves_scale = own.solves_scale;
     for (const LandmarkPair& pair : own.pairs) entry.pairs.push_back({pair});
@@ -208,10 +208,10 @@ std::string NotesText(const PlacingNotes& notes) {
 }
 
 PlacingNotes NotesFromText(const std::string& text, const std::filesystem::path& file) {
-  NotesInFile in_file = FromJsonFile<NotesInFile>(text, kSchema, "notes of placing", file);
+  NotesInFile in_file = FromJsonFile<NotesInFile>(text, kNotesSchema, "notes of placing", file);
   PlacingNotes notes;
-  for (LandmarksInFile& entry : in_file.landmarks) {
-    for (PairInFile& pair : entry.pairs) entry.own.pairs.push_back(std::move(pair.pair));
+  for (LandmarksInNotes& entry : in_file.landmarks) {
+    for (PairInNotes& pair : entry.pairs) entry.own.pairs.push_back(std::move(pair.pair));
     notes.landmarks.push_back(std::move(entry.own));
   }
   for (ImportInFile& entry : in_file.imports) notes.imports.push_back(std::move(entry.frame));

@@ -11,8 +11,7 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr int kCells = 256;      // along the longer side of the panorama
-constexpr double kReach = 0.02;  // m; farther vertices do not belong to what the relief shows
+constexpr int kCells = 256;  // along the longer side of the panorama
 // Cosine between a triangle and the line to the portal below which it spans a jump of the relief.
 constexpr double kGrazing = 0.12;
 
@@ -71,7 +70,7 @@ ReliefFit FitOf(const ReliefTarget& relief, const SurfaceMesh& surface, const Po
     points.push_back(pose * surface.vertices[i]);
     faces.push_back(glm::dot(pose.quaternion * normals[i], points.back()) < 0);
   }
-  const std::vector<double> distances = DistancesFrom(relief, points, kReach);
+  const std::vector<double> distances = DistancesFrom(relief, points, kReliefReach);
   std::vector<double> unsigned_ones;
   std::size_t behind = 0;
   for (std::size_t i = 0; i < distances.size(); ++i) {

@@ -20,6 +20,9 @@ struct ReliefTarget {
 };
 ReliefTarget MakeReliefTarget(const LoadedScene& scene);
 
+// Distance beyond which a vertex does not belong to what the relief shows, m.
+inline constexpr double kReliefReach = 0.02;
+
 // Signed distances of points: positive in front of the relief. NaN for a point that is farther than
 // `reach` from it, or beside what was imaged.
 std::vector<double> DistancesFrom(const ReliefTarget& relief, const std::vector<glm::dvec3>& points,

@@ -10,7 +10,7 @@ namespace arthro::authoring {
 namespace {
 
 constexpr int kLeastPixels = 1 << 14;  // halving a smaller picture gains nothing
-constexpr int kSaturation = 250;
+constexpr int kGlint = 250;
 
 // Mean of a block of pixels, rounded. Saturated pixels count only when there are no others, and
 // black ones only when they are the majority, so that highlights and surround keep their edges.
@@ -20,7 +20,7 @@ std::array<std::uint8_t, 3> MeanOfBlock(const ColourImage& fine, int x0, int y0)
   for (int y = y0; y < std::min(fine.height, y0 + 2); ++y)
     for (int x = x0; x < std::min(fine.width, x0 + 2); ++x) {
       const std::uint8_t* p = fine.at(x, y);
-      const bool is_glint = std::min({p[0], p[1], p[2]}) >= kSaturation;
+      const bool is_glint = std::min({p[0], p[1], p[2]}) >= kGlint;
       if (std::max({p[0], p[1], p[2]}) == 0) {
         ++blacks;
         continue;

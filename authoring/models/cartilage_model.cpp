@@ -8,11 +8,10 @@
 #include "authoring/phantom/shape/disc_layer.h"
 #include "authoring/tissue/surface/surface_topology.h"
 #include "simulation/core/option_fields.h"
+#include "simulation/core/units.h"
 
 namespace arthro::authoring {
 namespace {
-
-constexpr double kMm = kMetrePerMillimetre;
 
 bool IsCondyle(CartilageSite site) {
   return site == CartilageSite::kMedialCondyle || site == CartilageSite::kLateralCondyle;

@@ -10,11 +10,11 @@
 #include "authoring/models/crescent_sections.h"
 #include "authoring/phantom/shape/crescent_skin.h"
 #include "simulation/core/option_fields.h"
+#include "simulation/core/units.h"
 
 namespace arthro::authoring {
 namespace {
 
-constexpr double kQuarter = 0.5 * std::numbers::pi;
 // Angle at which the horns are measured: their full width, before they taper to the roots.
 constexpr double kHornAngle = 85.0 * kRadianPerDegree;
 constexpr double kEdge = MetresFromMm(0.6);  // thickness of the free edge
@@ -137,8 +137,8 @@ Crescent CrescentOf(const MeniscusOptions& options) {
   constexpr double kLeastTurn = RadiansFromDegrees(15), kMostTurn = RadiansFromDegrees(75);
   const auto with_ends = [&](double turn) {
     Crescent at = c;
-    at.from = -(kQuarter + turn);
-    at.to = kQuarter + turn;
+    at.from = -(kQuarterTurn + turn);
+    at.to = kQuarterTurn + turn;
     at.outer_x = Bisect(0.4 * options.width, options.width, [&](double radius) {
       at.outer_x = radius;
       return ExtentInX(at) - options.width;

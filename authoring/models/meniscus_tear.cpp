@@ -21,7 +21,7 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr std::array<TearEntry, 6> kEntries = {
+constexpr std::array<TearEntry, 6> kTearEntries = {
     {{TearKind::kLongitudinal, "longitudinal", "Longitudinal"},
      {TearKind::kBucketHandle, "bucket-handle", "Bucket handle"},
      {TearKind::kRadial, "radial", "Radial"},
@@ -249,7 +249,7 @@ SurfaceMesh WithDisplacedHandle(SurfaceMesh torn, const SurfaceMesh& whole,
   return torn;
 }
 
-std::span<const TearEntry> TearEntries() { return kEntries; }
+std::span<const TearEntry> TearEntries() { return kTearEntries; }
 
 TearOptions::TearOptions(TearKind its_kind) : kind(its_kind) {
   position = kind == TearKind::kRoot           ? 0.94

@@ -8,7 +8,7 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr std::array<ModelEntry, 10> kEntries = {
+constexpr std::array<ModelEntry, 10> kModelEntries = {
     {{ModelKind::kMedialMeniscus, "medial-meniscus", "Medial meniscus"},
      {ModelKind::kLateralMeniscus, "lateral-meniscus", "Lateral meniscus"},
      {ModelKind::kMedialCondyle, "medial-condyle", "Medial condyle cartilage"},
@@ -37,7 +37,7 @@ struct SizeVisitor {
 
 }  // namespace
 
-std::span<const ModelEntry> ModelEntries() { return kEntries; }
+std::span<const ModelEntry> ModelEntries() { return kModelEntries; }
 
 ModelOptions DefaultOptionsOf(ModelKind kind) {
   switch (kind) {

@@ -10,12 +10,10 @@
 #include "authoring/phantom/shape/disc_layer.h"
 #include "authoring/phantom/shape/noise.h"
 #include "simulation/core/option_fields.h"
+#include "simulation/core/units.h"
 
 namespace arthro::authoring {
 namespace {
-
-constexpr double kMm = kMetrePerMillimetre;
-constexpr double kQuarter = 0.5 * std::numbers::pi;
 
 struct Box {
   glm::dvec3 low{1e9}, high{-1e9};
@@ -35,7 +33,7 @@ void MirrorFor(KneeSide side, LibraryModel& model) {
 
 // Direction at a share of the way from the pole to the equator, short of it by half a ring.
 glm::dvec3 OnHalfSphere(double share, double angle, int rings) {
-  const double polar = share * kQuarter * (1.0 - 0.5 / rings);
+  const double polar = share * kQuarterTurn * (1.0 - 0.5 / rings);
   return {std::sin(polar) * std::cos(angle), std::sin(polar) * std::sin(angle), std::cos(polar)};
 }
 

@@ -14,14 +14,14 @@
 namespace arthro::authoring {
 namespace {
 
-using Json = nlohmann::json;
+using AnyJson = nlohmann::json;
 
 // Fault of a report, in words that continue "this is no report of a panorama: ".
 struct ReportFault {
   std::string words;
 };
 
-const Json& At(const Json& json, const char* key) {
+const AnyJson& At(const AnyJson& json, const char* key) {
   if (!json.is_object()) throw ReportFault{fmt::format("\"{}\" stands in no object", key)};
   const auto value = json.find(key);
   if (value == json.end()) throw ReportFault{fmt::format("\"{}\" is missing", key)};
@@ -29,35 +29,35 @@ const Json& At(const Json& json, const char* key) {
 }
 
 template <class T>
-T Get(const Json& json, const char* key) {
+T Get(const AnyJson& json, const char* key) {
   try {
     return At(json, key).get<T>();
-  } catch (const Json::exception&) {
+  } catch (const AnyJson::exception&) {
     throw ReportFault{fmt::format("\"{}\" is of the wrong kind", key)};
   }
 }
 
 template <class T>
-T GetOr(const Json& json, const char* key, T otherwise) {
+T GetOr(const AnyJson& json, const char* key, T otherwise) {
   return json.is_object() && json.contains(key) ? Get<T>(json, key) : otherwise;
 }
 
-double NumberOr0(const Json& json, const char* key) {
+double NumberOr0(const AnyJson& json, const char* key) {
   return json.contains(key) && json.at(key).is_null() ? 0.0 : GetOr(json, key, 0.0);
 }
 
-const Json& ListOr(const Json& json, const char* key, const Json& otherwise) {
+const AnyJson& ListOr(const AnyJson& json, const char* key, const AnyJson& otherwise) {
   if (!json.contains(key)) return otherwise;
   if (!At(json, key).is_array()) throw ReportFault{fmt::format("\"{}\" is no list", key)};
   return At(json, key);
 }
 
-PinholeView ViewFromJson(const Json& json) {
+PinholeView ViewFromJson(const AnyJson& json) {
   return {Get<int>(json, "width"), Get<int>(json, "height"), Get<double>(json, "focal_px"),
           Get<double>(json, "cx"), Get<double>(json, "cy")};
 }
 
-FrameReport FrameFromJson(const Json& json) {
+FrameReport FrameFromJson(const AnyJson& json) {
   constexpr const char* kSkipped = "skipped: ";
   FrameReport frame;
   frame.index = Get<int>(json, "index");
@@ -75,7 +75,7 @@ FrameReport FrameFromJson(const Json& json) {
   return frame;
 }
 
-Projection ProjectionOverRelief(const Json& json) {
+Projection ProjectionOverRelief(const AnyJson& json) {
   Projection projection;
   projection.type = ProjectionType::kEquirectangular;
   const auto centre = Get<std::vector<double>>(json, "centre_px");
@@ -85,7 +85,7 @@ Projection ProjectionOverRelief(const Json& json) {
   return projection;
 }
 
-void ReadPanorama(const Json& json, PanoramaReport& report) {
+void ReadPanorama(const AnyJson& json, PanoramaReport& report) {
   if (!json.contains("projection")) {
     report.panorama = ViewFromJson(json);
     return;
@@ -96,8 +96,8 @@ void ReadPanorama(const Json& json, PanoramaReport& report) {
   report.over_relief = ProjectionOverRelief(At(json, "projection"));
 }
 
-PanoramaReport Read(const Json& json, const std::filesystem::path& file) {
-  const Json none = Json::array();
+PanoramaReport Read(const AnyJson& json, const std::filesystem::path& file) {
+  const AnyJson none = AnyJson::array();
   PanoramaReport report;
   report.footage = GetOr(json, "footage", std::string());
   report.is_partial = At(json, "status") == "partial";
@@ -112,25 +112,25 @@ PanoramaReport Read(const Json& json, const std::filesystem::path& file) {
   report.detector = GetOr(json, "detector", std::string());
   report.seed = GetOr(json, "seed", 0);
   report.warnings = GetOr(json, "warnings", std::vector<std::string>());
-  for (const Json& row : ListOr(json, "components", none)) {
+  for (const AnyJson& row : ListOr(json, "components", none)) {
     PieceReport& piece = report.pieces.emplace_back();
     piece.component = Get<int>(row, "component");
     piece.frames = Get<int>(row, "frames");
     piece.file = Get<std::string>(row, "file");
     if (row.contains("panorama")) piece.panorama = ViewFromJson(At(row, "panorama"));
   }
-  for (const Json& row : ListOr(json, "clips", none))
+  for (const AnyJson& row : ListOr(json, "clips", none))
     report.clips.push_back({Get<std::string>(row, "file"), Get<int>(row, "first_frame"),
                             Get<int>(row, "frames"), Get<int>(row, "usable"),
                             Get<int>(row, "placed")});
-  for (const Json& row : ListOr(json, "tied", none))
+  for (const AnyJson& row : ListOr(json, "tied", none))
     report.tied.push_back({Get<int>(row, "index"), Get<int>(row, "pairs"),
                            Get<double>(row, "rms_px"), Get<double>(row, "expected_error_px"),
                            Get<bool>(row, "refined")});
-  for (const Json& row : ListOr(json, "text_boxes", none))
+  for (const AnyJson& row : ListOr(json, "text_boxes", none))
     report.text_boxes.push_back(
         {Get<int>(row, "x"), Get<int>(row, "y"), Get<int>(row, "width"), Get<int>(row, "height")});
-  for (const Json& row : Get<Json::array_t>(json, "frames"))
+  for (const AnyJson& row : Get<AnyJson::array_t>(json, "frames"))
     report.frames.push_back(FrameFromJson(row));
   for (std::size_t i = 0; i < report.clips.size(); ++i)
     for (FrameReport& frame : report.frames)
@@ -142,7 +142,7 @@ PanoramaReport Read(const Json& json, const std::filesystem::path& file) {
   return report;
 }
 
-ReportedView ReadView(const Json& json) {
+ReportedView ReadView(const AnyJson& json) {
   if (json.contains("projection"))
     return {ProjectionOverRelief(At(json, "projection")), Get<int>(json, "width"),
             Get<int>(json, "height")};
@@ -167,7 +167,7 @@ auto InReport(const std::filesystem::path& file, const Read& read) {
 }  // namespace
 
 PanoramaReport ReportFromJson(const std::string& text, const std::filesystem::path& file) {
-  const Json json = ParseJson(text, Code::kBadData, file);
+  const AnyJson json = ParseJson(text, Code::kBadData, file);
   return InReport(file, [&] {
     PanoramaReport report = Read(json, file);
     // Options keep their order.
@@ -178,7 +178,7 @@ PanoramaReport ReportFromJson(const std::string& text, const std::filesystem::pa
 }
 
 ReportedView ViewFromReport(const std::string& text, const std::filesystem::path& file) {
-  const Json json = ParseJson(text, Code::kBadData, file);
+  const AnyJson json = ParseJson(text, Code::kBadData, file);
   return InReport(file, [&] { return ReadView(At(json, "panorama")); });
 }
 

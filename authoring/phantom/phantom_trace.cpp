@@ -14,7 +14,6 @@ namespace arthro::authoring {
 namespace {
 
 using simulation::RodPose;
-constexpr double kMm = kMetrePerMillimetre;
 constexpr double kDuration = 12.0, kRate = 100.0;       // s, Hz
 constexpr double kViewAngle = 30.0 * kRadianPerDegree;  // oblique view of the phantom's scope
 

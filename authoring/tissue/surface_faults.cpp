@@ -13,16 +13,12 @@
 #include "authoring/tissue/surface/surface_topology.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/mesh/surface_finder.h"
 
 namespace arthro::authoring {
 namespace {
 
 constexpr int kMostHoleSides = 100;
-
-std::array<glm::dvec3, 3> CornersOf(const SurfaceMesh& surface, std::size_t t) {
-  const auto& [a, b, c] = surface.triangles[t];
-  return {surface.vertices[a], surface.vertices[b], surface.vertices[c]};
-}
 
 void AddTriangle(SurfaceFault& fault, const std::array<glm::dvec3, 3>& corners) {
   fault.triangles.push_back(corners);

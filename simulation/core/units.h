@@ -9,7 +9,10 @@
 namespace arthro {
 
 inline constexpr double kMetrePerMillimetre = 1e-3;
+inline constexpr double kMm = kMetrePerMillimetre, kMm3 = 1e-9;  // for tables of shapes
 inline constexpr double kRadianPerDegree = std::numbers::pi / 180.0;
+inline constexpr double kRadianPerTurn = 2.0 * std::numbers::pi;
+inline constexpr double kQuarterTurn = 0.5 * std::numbers::pi;
 
 constexpr double MetresFromMm(double mm) { return mm * kMetrePerMillimetre; }
 constexpr double MmFromMetres(double metres) { return metres / kMetrePerMillimetre; }

@@ -17,7 +17,7 @@ namespace {
 
 void LookAtCuts(const Tissue& tissue, const SurfaceMesh& surface, SceneFindings& findings) {
   const std::string what = fmt::format("tissue \"{}\"", tissue.name);
-  constexpr double kMm3 = 1e9;
+  constexpr double kMm3PerM3 = 1e9;
   const BodyPlaces places = PlacesOf(tissue, surface);
   SolidField field = SolidField::FromSurface(places.surface, BodyOptions{}.cut_spacing);
 
@@ -47,7 +47,7 @@ void LookAtCuts(const Tissue& tissue, const SurfaceMesh& surface, SceneFindings&
   }
   findings.found.push_back(fmt::format("{}: {} cut{} take{} {:.1f} mm3 of it before practice", what,
                                        made.removed.size(), made.removed.size() == 1 ? "" : "s",
-                                       made.removed.size() == 1 ? "s" : "", removed * kMm3));
+                                       made.removed.size() == 1 ? "s" : "", removed * kMm3PerM3));
   if (made.washed.crumbs > 0)
     findings.hints.push_back(
         fmt::format("{}: its cuts leave {} small loose piece{}, washed away before practice", what,
@@ -60,7 +60,7 @@ void LookAtCuts(const Tissue& tissue, const SurfaceMesh& surface, SceneFindings&
       findings.warnings.push_back(
           fmt::format("{}: its cuts leave a piece of {:.1f} mm3 that no ball of \"fixed\" holds: "
                       "it will drift when it is touched",
-                      what, pieces.volume[i] * kMm3));
+                      what, pieces.volume[i] * kMm3PerM3));
 }
 
 }  // namespace

@@ -11,11 +11,12 @@
 #include "tests/benchmark/bench_report.h"
 #include "tests/simulation/tissue/body/meniscus_body.h"
 #include "tests/simulation/tissue/body/plateau.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;  // s
+using test::kFrame;
 
 struct Kind {
   std::vector<double> seconds, residual;

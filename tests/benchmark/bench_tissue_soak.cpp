@@ -22,11 +22,12 @@
 #include "tests/benchmark/bench_report.h"
 #include "tests/simulation/tissue/body/meniscus_body.h"
 #include "tests/simulation/tissue/body/random_hand.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;  // s
+using test::kFrame;
 constexpr int kCutsToReset = 120;    // bites and shavings in one session of a trainee
 constexpr double kHeapGrowth = 1.0;  // MB allowed from the first minute to the last
 // Not wedged, contacts have up to twice the friction of their push, of which the servo may lose all

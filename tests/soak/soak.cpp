@@ -31,6 +31,7 @@
 #include "tests/soak/window_process.h"
 #include "tests/support/build_paths.h"
 #include "tests/support/temp_folder.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::test {
 namespace {
@@ -38,7 +39,7 @@ namespace {
 using namespace simulation;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kFrame = 1.0 / 60, kToolTime = 8, kRestEvery = 48, kRestTime = 6;  // s
+constexpr double kToolTime = 8, kRestEvery = 48, kRestTime = 6;  // s
 constexpr double kSettles = 3;         // s of a rest before the energy counts
 constexpr int kCutsToReset = 60;       // bites and shavings in one session of a trainee
 constexpr double kWarmUp = 0.25;       // share of the time before memory counts

@@ -7,13 +7,13 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/finite.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::test {
 namespace {
 
 using namespace simulation;
 
-constexpr double kTick = 0.001;                  // s
 constexpr double kOut = 0.03, kOutSpeed = 0.06;  // m towards the hand, m/s
 // The hand wanders as noise of first order, some 2 mm wide.
 constexpr double kPull = 0.8, kNoise = 0.0025;  // 1/s, m/√s

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <unistd.h>
 
@@ -27,5 +28,11 @@ class TempFolder {
  private:
   std::filesystem::path path_;
 };
+
+// Number of entries of a folder.
+inline int FileCount(const std::filesystem::path& folder) {
+  return static_cast<int>(std::distance(std::filesystem::directory_iterator(folder),
+                                        std::filesystem::directory_iterator()));
+}
 
 }  // namespace arthro::test

@@ -5,6 +5,7 @@
 
 #include "app/bench/machine_words.h"
 #include "app/bench/speed_error_plot.h"
+#include "app/bench/table_number.h"
 #include "simulation/core/options_json.h"
 #include "simulation/core/units.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kMicro = 1e6, kMilli = 1e3;
+constexpr double kMicro = 1e6;
 
 std::string Microseconds(double seconds) {
   const double us = kMicro * seconds;

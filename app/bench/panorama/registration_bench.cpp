@@ -10,6 +10,7 @@
 #include "app/bench/machine_words.h"
 #include "app/bench/panorama/stitcher_peer.h"
 #include "app/bench/speed_error_plot.h"
+#include "app/bench/table_number.h"
 #include "authoring/lens/rectifier.h"
 #include "authoring/panorama/graph/register.h"
 #include "authoring/panorama/preparation/prepare.h"
@@ -98,10 +99,6 @@ RegistrationBenchRow RunPeer(const authoring::Clip& clip, const authoring::Recti
   Score(clip, view, results, row);
   row.covered = std::numeric_limits<double>::quiet_NaN();  // the peer expects no error
   return row;
-}
-
-std::string Number(double value, int decimals) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
 }
 
 }  // namespace
@@ -207,8 +204,8 @@ std::string TableOf(const RegistrationBench& bench) {
   for (const auto& row : bench.rows)
     table += fmt::format("{:<8}{:<24}{:>7}{:>8}{:>7}{:>7}{:>9}{:>9}{:>9}{:>10}  {}\n", row.clip,
                          row.chain, row.frames, row.placed, row.right, row.wrong_as_good,
-                         Number(row.mean_px, 2), Number(row.max_px, 2), Number(row.covered, 2),
-                         Number(row.cpu_ms, 1), row.outcome);
+                         TableNumber(row.mean_px, 2), TableNumber(row.max_px, 2),
+                         TableNumber(row.covered, 2), TableNumber(row.cpu_ms, 1), row.outcome);
   return table +
          "right: worst of nine points less than 10 px off; wrong: placed, 10 px or more off, and "
          "expected to be less;\ncovered: share of placed frames within their expected error; "

@@ -7,16 +7,11 @@
 
 #include "app/bench/machine_words.h"
 #include "app/bench/speed_error_plot.h"
+#include "app/bench/table_number.h"
 #include "simulation/core/options_json.h"
 
 namespace arthro::app {
-namespace {
-
-std::string Number(double value, int decimals) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::string TableOf(const ReliefBench& bench) {
   std::string table = fmt::format(
@@ -26,12 +21,12 @@ std::string TableOf(const ReliefBench& bench) {
       "CPU ms/fr", "covered", "rmse mm", "med. mm", "< 1 mm", "Spearman", "apart px", "force N",
       "of N", "outcome");
   for (const ReliefBenchRow& row : bench.rows)
-    table += fmt::format("{:<11}{:<34}{:>8}{:>10}{:>9}{:>9}{:>9}{:>8}{:>9}{:>9}{:>9}{:>9}  {}\n",
-                         row.clip, row.way, fmt::format("{}/{}", row.placed, row.frames),
-                         Number(row.cpu_ms, 1), Number(row.coverage, 2), Number(row.rmse_mm, 2),
-                         Number(row.median_mm, 2), Number(row.within_1mm, 2),
-                         Number(row.spearman, 2), Number(row.apart_px, 2),
-                         Number(row.force_error, 3), Number(row.force_of_truth, 3), row.outcome);
+    table += fmt::format(
+        "{:<11}{:<34}{:>8}{:>10}{:>9}{:>9}{:>9}{:>8}{:>9}{:>9}{:>9}{:>9}  {}\n", row.clip, row.way,
+        fmt::format("{}/{}", row.placed, row.frames), TableNumber(row.cpu_ms, 1),
+        TableNumber(row.coverage, 2), TableNumber(row.rmse_mm, 2), TableNumber(row.median_mm, 2),
+        TableNumber(row.within_1mm, 2), TableNumber(row.spearman, 2), TableNumber(row.apart_px, 2),
+        TableNumber(row.force_error, 3), TableNumber(row.force_of_truth, 3), row.outcome);
   return table +
          "Errors are those of the distance from the portal, over the directions that three frames "
          "see: after the similarity\nthat fits the cameras best for motion, and after the affine "

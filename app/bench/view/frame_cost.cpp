@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/bench/table_number.h"
 #include "app/bench/view/live_error.h"
 #include "app/bench/view/traced_agreement.h"
 #include "app/view/backdrop/relief_outlines.h"
@@ -20,7 +21,6 @@ namespace {
 using namespace test;
 
 constexpr int kWarmUp = 5;  // turns
-constexpr double kMilli = 1e3;
 
 // Contents of a view. Views differ only in that: a change of it would be uploaded anew.
 enum class Content { kBackdrop, kLit, kInstruments, kTissue, kStructure };

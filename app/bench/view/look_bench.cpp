@@ -29,12 +29,12 @@ constexpr std::array kDepths{0.24, 0.4};  // share of the radius
 constexpr int kMostFrames = 24;
 constexpr int kCircleFrames = 12;
 
-// Extent of the imaged part between its 2nd and 98th percentile, rad.
-struct Extent {
+// PartExtent of the imaged part between its 2nd and 98th percentile, rad.
+struct PartExtent {
   double low = 0, high = 0;
   double at(double share) const { return low + share * (high - low); }
 };
-Extent ExtentOf(std::vector<double> values) {
+PartExtent ExtentOf(std::vector<double> values) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
   const auto last = static_cast<double>(values.size() - 1);
@@ -146,8 +146,8 @@ std::vector<simulation::RodPose> LookPoses(const LoadedScene& loaded) {
       longitudes.push_back(std::atan2(d.x, d.z));
       latitudes.push_back(-std::asin(std::clamp(d.y, -1.0, 1.0)));
     }
-  const Extent longitude = ExtentOf(std::move(longitudes)),
-               latitude = ExtentOf(std::move(latitudes));
+  const PartExtent longitude = ExtentOf(std::move(longitudes)),
+                   latitude = ExtentOf(std::move(latitudes));
   std::vector<simulation::RodPose> poses;
   for (const double share : kDepths)
     for (const double row : kLatitudes)

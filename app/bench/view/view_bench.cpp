@@ -7,6 +7,7 @@
 
 #include "app/bench/machine_words.h"
 #include "app/bench/speed_error_plot.h"
+#include "app/bench/table_number.h"
 #include "simulation/core/options_json.h"
 #include "simulation/core/units.h"
 
@@ -14,8 +15,6 @@ namespace arthro::app {
 namespace {
 
 using namespace test;
-
-constexpr double kMilli = 1e3;
 
 // A column's number, or a dash where there is none.
 std::string Column(std::optional<double> value, int width, int digits) {

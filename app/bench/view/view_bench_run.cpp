@@ -19,8 +19,8 @@ using namespace test;
 constexpr std::array kSearches = {ReliefSearch{0, 1},  ReliefSearch{64, 16}, kUsualRelief,
                                   ReliefSearch{64, 4}, ReliefSearch{64, 1},  ReliefSearch{256, 1}};
 constexpr std::array kSamples = {1, 2, 4, 8};
-constexpr double kFewer = 0.2;  // share of the triangles of the finer tissue, for most rows
-constexpr int kWarmUp = 5;      // frames, in which drivers compile and upload
+constexpr double kFewer = 0.2;   // share of the triangles of the finer tissue, for most rows
+constexpr int kFirstFrames = 5;  // frames, in which drivers compile and upload
 
 // Content of a picture beside the backdrop. `fineness` is the share of the options' triangles.
 struct SceneKind {
@@ -102,7 +102,7 @@ class ViewBenchRun {
 template <class F>
 FrameTimes ViewBenchRun::TimeFrames(const std::string& words, F&& frame) {
   return DrawInTurns(
-             1, options_.timed_frames, std::min(kWarmUp, options_.timed_frames),
+             1, options_.timed_frames, std::min(kFirstFrames, options_.timed_frames),
              [&](std::size_t) { frame(); }, [&](std::size_t) { view_.Finish(); },
              [&](double share) {
                progress_.Step(

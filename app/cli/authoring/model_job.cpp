@@ -36,7 +36,7 @@ namespace {
 using authoring::KneeSide;
 using authoring::LibraryModel;
 
-struct Arguments {
+struct ModelArguments {
   std::string kind, side = "right", tear, output, report, scene, save_scene, budget = "default";
   std::map<std::string, double> sizes;  // value per field, in memory's unit
   std::map<std::string, double> tear_sizes;
@@ -111,7 +111,7 @@ const authoring::ModelEntry& EntryOf(const std::string& word) {
   throw Error(Code::kBadArgument, "\"" + word + "\" is no model of the library");
 }
 
-authoring::ModelOptions OptionsOf(const Arguments& arguments) {
+authoring::ModelOptions OptionsOf(const ModelArguments& arguments) {
   authoring::ModelOptions options = authoring::DefaultOptionsOf(EntryOf(arguments.kind).kind);
   std::map<std::string, double> given = arguments.sizes;
   std::visit([&](auto& chosen) { chosen.Visit(FieldSetter{given}); }, options);
@@ -124,7 +124,7 @@ authoring::ModelOptions OptionsOf(const Arguments& arguments) {
 }
 
 // The tear that was asked for; nothing where there is none.
-std::optional<authoring::TearOptions> TearOf(const Arguments& arguments) {
+std::optional<authoring::TearOptions> TearOf(const ModelArguments& arguments) {
   if (arguments.tear.empty()) {
     if (!arguments.tear_sizes.empty())
       throw Error(Code::kBadArgument,
@@ -150,7 +150,7 @@ std::optional<authoring::TearOptions> TearOf(const Arguments& arguments) {
   throw Error(Code::kBadArgument, "\"" + arguments.tear + "\" is no kind of tear");
 }
 
-void SaveInScene(const Arguments& arguments, const LibraryModel& model,
+void SaveInScene(const ModelArguments& arguments, const LibraryModel& model,
                  const std::vector<Cut>& cuts, const Progress& progress) {
   authoring::Document document = authoring::OpenDocument(arguments.scene);
   const double latitude = RadiansFromDegrees(arguments.towards[0]);
@@ -176,7 +176,7 @@ void SaveInScene(const Arguments& arguments, const LibraryModel& model,
   authoring::SaveDocument(document, arguments.save_scene);
 }
 
-void RunJob(const Arguments& arguments) {
+void RunJob(const ModelArguments& arguments) {
   if (arguments.output.empty() && arguments.save_scene.empty())
     throw Error(Code::kBadArgument,
                 "nothing would be written; give -o, or --scene and --save-scene");
@@ -242,7 +242,7 @@ std::vector<std::string> BudgetNames() {
 void AddModelJob(CLI::App& program) {
   CLI::App* job = program.add_subcommand(
       "model", "Make a structure of the knee from published sizes, as a surface or in a scene.");
-  const auto own = std::make_shared<Arguments>();
+  const auto own = std::make_shared<ModelArguments>();
   const auto files = JobFiles::Of(*job);
   job->add_option("KIND", own->kind, "Model of the library.")
       ->required()

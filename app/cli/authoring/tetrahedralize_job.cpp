@@ -29,7 +29,7 @@
 namespace arthro::app {
 namespace {
 
-struct Arguments {
+struct MeshArguments {
   std::string surface, unit, output, report, budget;
   int elements = 0;  // 0: no budget, as many as the options ask for
   std::vector<Ball> held;
@@ -51,7 +51,7 @@ CLI::Option* AddBalls(CLI::App& job, const std::string& flag, std::vector<Ball>&
 }
 
 // Before the long part, so that a slip of the pen costs nothing.
-void CheckOutput(const Arguments& arguments) {
+void CheckOutput(const MeshArguments& arguments) {
   const std::filesystem::path output = arguments.output;
   if (output != "-" && output.extension() != ".vtu")
     throw Error(Code::kBadArgument, "a volume is written as VTK's XML format; name it .vtu",
@@ -64,7 +64,7 @@ void CheckOutput(const Arguments& arguments) {
                 output);
 }
 
-TetMesh Fill(const Arguments& arguments, const SurfaceMesh& surface,
+TetMesh Fill(const MeshArguments& arguments, const SurfaceMesh& surface,
              const authoring::SurfaceSource& source, authoring::TetrahedralizeReport& report,
              const Progress& progress) {
   const authoring::TetrahedralizeOptions& options = arguments.options;
@@ -80,7 +80,7 @@ TetMesh Fill(const Arguments& arguments, const SurfaceMesh& surface,
   return authoring::TetrahedralizeToBudget(surface, source, wish, &report, progress);
 }
 
-void RunJob(Arguments arguments) {
+void RunJob(MeshArguments arguments) {
   arguments.options.begun = std::chrono::steady_clock::now();
   CheckOutput(arguments);
   const Progress progress = TerminalProgress();
@@ -111,7 +111,7 @@ void RunJob(Arguments arguments) {
 
 // Sizes by their count of elements: curved ones on a coarser surface. What that decides itself
 // cannot be asked for beside it.
-void AddBudget(CLI::App& job, Arguments& arguments) {
+void AddBudget(CLI::App& job, MeshArguments& arguments) {
   constexpr const char* kGroup = "Budget";
   std::vector<std::string> names;
   std::string help =
@@ -154,7 +154,7 @@ void AddBudget(CLI::App& job, Arguments& arguments) {
 void AddTetrahedralizeJob(CLI::App& program) {
   CLI::App* job = program.add_subcommand(
       "tetrahedralize", "Fill a closed surface with tetrahedra, so that it can be deformed.");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<MeshArguments>();
   const auto files = JobFiles::Of(*job);
   files
       ->Input(job->add_option("SURFACE", arguments->surface,

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <imgui.h>
 
+#include "app/platform/theme.h"
 #include "app/steps/depth/depth_step.h"
 
 namespace arthro::app {
@@ -12,7 +13,7 @@ namespace {
 
 using ToWindow = std::function<std::optional<glm::dvec2>(const glm::dvec3& x_in_portal)>;
 
-constexpr unsigned kShadow = 0xC0000000, kStroke = 0xC0F0C850;
+constexpr unsigned kStroke = 0xC0F0C850;
 
 // A line through the places that the picture shows.
 void Line(const std::vector<std::optional<glm::dvec3>>& places, const ToWindow& to_window,
@@ -40,7 +41,7 @@ void Mark(const Ui& ui, const EditorState& state, const Area& area, const ToWind
   }
   Line(stroke, to_window, kStroke, ui.Px(3));
   const auto ring = RingOnRelief(state, 1.0), core = RingOnRelief(state, brush.stroke.hardness);
-  Line(ring, to_window, kShadow, ui.Px(3));
+  Line(ring, to_window, kMarkShadow, ui.Px(3));
   Line(ring, to_window, kBright, ui.Px(1.5));
   Line(core, to_window, 0x90FFFFFF, ui.Px(1));
   ImGui::GetWindowDrawList()->PopClipRect();

@@ -6,14 +6,15 @@
 #include <glm/geometric.hpp>
 #include <imgui.h>
 
+#include "app/platform/theme.h"
 #include "app/steps/lessons/lessons_step.h"
 #include "app/steps/lessons/running_attempt.h"
 
 namespace arthro::app {
 namespace {
 
-constexpr unsigned kCue = 0xFF60E8F8, kShadow = 0xC0000000;  // yellow
-constexpr unsigned kOther = 0xFFE8D8C8;                      // targets that are not chosen
+constexpr unsigned kCue = 0xFF60E8F8;    // yellow
+constexpr unsigned kOther = 0xFFE8D8C8;  // targets that are not chosen
 
 // Draws over the picture's own window.
 class Marks {
@@ -41,9 +42,9 @@ class Marks {
   void Ring(const glm::dvec2& place, const std::string& name) const {
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const ImVec2 at = At(place);
-    draw->AddCircle(at, ui_.Px(14), kShadow, 32, ui_.Px(4));
+    draw->AddCircle(at, ui_.Px(14), kMarkShadow, 32, ui_.Px(4));
     draw->AddCircle(at, ui_.Px(14), colour_, 32, ui_.Px(2));
-    draw->AddText({at.x + ui_.Px(18) + 1, at.y - ui_.Px(8) + 1}, kShadow, name.c_str());
+    draw->AddText({at.x + ui_.Px(18) + 1, at.y - ui_.Px(8) + 1}, kMarkShadow, name.c_str());
     draw->AddText({at.x + ui_.Px(18), at.y - ui_.Px(8)}, colour_, name.c_str());
   }
   void Arrow(const glm::dvec2& towards) const {

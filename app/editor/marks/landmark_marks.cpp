@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <imgui.h>
 
+#include "app/platform/theme.h"
 #include "app/steps/tissue/landmark_mode.h"
 #include "app/steps/tissue/tissue_step.h"
 
@@ -19,7 +20,6 @@ using ToWindow = std::function<std::optional<glm::dvec2>(const glm::dvec3& x_in_
 
 constexpr unsigned kModelColour = 0xFF4DB8F2;  // amber
 constexpr unsigned kSceneColour = 0xFFE8C860;  // light teal
-constexpr unsigned kShadow = 0xC0000000;
 
 class Clip {
  public:
@@ -37,19 +37,19 @@ ImVec2 From(const glm::dvec2& x) { return {static_cast<float>(x.x), static_cast<
 void Number(const Ui& ui, const ImVec2& at, const std::string& number, unsigned colour) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImVec2 corner{at.x + ui.Px(7), at.y - ui.Px(17)};
-  draw->AddText({corner.x + 1, corner.y + 1}, kShadow, number.c_str());
+  draw->AddText({corner.x + 1, corner.y + 1}, kMarkShadow, number.c_str());
   draw->AddText(corner, colour, number.c_str());
 }
 
 void ModelMark(const Ui& ui, const ImVec2& at, bool is_chosen) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  draw->AddCircleFilled(at, ui.Px(is_chosen ? 5.5 : 4.5), kShadow);
+  draw->AddCircleFilled(at, ui.Px(is_chosen ? 5.5 : 4.5), kMarkShadow);
   draw->AddCircleFilled(at, ui.Px(is_chosen ? 4.5 : 3.5), kModelColour);
 }
 
 void SceneMark(const Ui& ui, const ImVec2& at, bool is_chosen) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  draw->AddCircle(at, ui.Px(6), kShadow, 24, ui.Px(is_chosen ? 5 : 4));
+  draw->AddCircle(at, ui.Px(6), kMarkShadow, 24, ui.Px(is_chosen ? 5 : 4));
   draw->AddCircle(at, ui.Px(6), kSceneColour, 24, ui.Px(is_chosen ? 3 : 1.8));
 }
 
@@ -113,7 +113,7 @@ void DrawOutline(const Ui& ui, const EditorState& state, const Area& area, const
     const auto from = to_window(x[static_cast<std::size_t>(edge.first)]),
                to = to_window(x[static_cast<std::size_t>(edge.second)]);
     if (!from || !to) continue;
-    draw->AddLine(From(*from), From(*to), kShadow, ui.Px(3));
+    draw->AddLine(From(*from), From(*to), kMarkShadow, ui.Px(3));
     draw->AddLine(From(*from), From(*to), kModelColour, ui.Px(1.4));
   }
 }

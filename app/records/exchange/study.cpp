@@ -16,7 +16,7 @@ namespace arthro::app {
 namespace {
 
 // Every attempt of a trainee is as long after this time as it was after the first one.
-constexpr std::int64_t kFirst = 946684800000;  // ms; 2000-01-01T00:00:00.000Z
+constexpr std::int64_t kEarliest = 946684800000;  // ms; 2000-01-01T00:00:00.000Z
 
 class Pseudonyms {
  public:
@@ -65,14 +65,14 @@ RecordsBundle ForStudy(RecordsBundle bundle, std::uint64_t seed) {
   };
   std::map<std::string, std::int64_t> first;  // ms, of each trainee
   const auto note = [&](const std::string& trainee, const std::string& time) {
-    const std::int64_t ms = MillisecondsOf(time).value_or(kFirst);
+    const std::int64_t ms = MillisecondsOf(time).value_or(kEarliest);
     const auto [entry, is_new] = first.emplace(trainee, ms);
     if (!is_new) entry->second = std::min(entry->second, ms);
   };
   for (const AttemptRecord& attempt : bundle.attempts) note(attempt.trainee, attempt.started);
   for (const SessionRow& session : bundle.sessions) note(session.trainee, session.started);
   const auto shift = [&](const std::string& trainee, std::string& time) {
-    if (const auto ms = MillisecondsOf(time)) time = UtcText(kFirst + *ms - first[trainee]);
+    if (const auto ms = MillisecondsOf(time)) time = UtcText(kEarliest + *ms - first[trainee]);
   };
   std::map<std::string, std::string> trainee_of;  // attempt -> trainee, by the old ids
   for (AttemptRecord& attempt : bundle.attempts) {
@@ -104,7 +104,7 @@ RecordsBundle ForStudy(RecordsBundle bundle, std::uint64_t seed) {
   }
   for (TraineeRow& trainee : bundle.trainees) {
     trainee.code = codes(trainee.code);
-    trainee.created = UtcText(kFirst);
+    trainee.created = UtcText(kEarliest);
     new_id(trainee.id);
     new_id(trainee.cohort);
   }

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kFirst = {
+const std::vector<std::string> kFirstSchema = {
     "CREATE TABLE meta (key TEXT NOT NULL PRIMARY KEY, value TEXT NOT NULL)",
     "CREATE TABLE cohorts (id TEXT NOT NULL PRIMARY KEY, name TEXT NOT NULL UNIQUE)",
     R"(CREATE TABLE trainees (id TEXT NOT NULL PRIMARY KEY, code TEXT NOT NULL UNIQUE,
@@ -71,7 +71,7 @@ const std::vector<std::string> kFirst = {
     "CREATE INDEX forms_of_attempts ON forms (attempt)",
 };
 
-const Migration kMigrations[] = {{1, kFirst}};
+const Migration kMigrations[] = {{1, kFirstSchema}};
 
 // Beside the file, under a name that is free.
 fs::path Copy(Database& database, int schema) {

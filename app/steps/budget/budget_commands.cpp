@@ -41,7 +41,7 @@ void ToggleBudget(State& state) {
   state.steps.practice->shows_devices = state.steps.practice->disturbing.shows_panel = false;
 }
 
-constexpr Command kCommands[] = {
+constexpr Command kBudgetCommands[] = {
     {"budget",
      "Budget",
      "Measure what tissue, force and picture cost on this machine, and show what would help.",
@@ -72,6 +72,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> BudgetCommands() { return kCommands; }
+std::span<const Command> BudgetCommands() { return kBudgetCommands; }
 
 }  // namespace arthro::app

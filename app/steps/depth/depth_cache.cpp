@@ -7,7 +7,7 @@
 namespace arthro::app {
 namespace {
 
-constexpr std::size_t kMostKept = 64;  // records, not maps
+constexpr std::size_t kMostRecords = 64;  // records, not maps
 
 }  // namespace
 
@@ -25,7 +25,7 @@ void DepthCache::Note(const authoring::Document& document) {
   made_.push_back({document.panorama, document.depth_options, document.depth_strokes,
                    document.depth, document.depth_sigma, document.depth != nullptr,
                    document.depth_sigma != nullptr});
-  if (made_.size() > kMostKept) made_.erase(made_.begin());
+  if (made_.size() > kMostRecords) made_.erase(made_.begin());
 }
 
 void DepthCache::Refuse(const authoring::Document& document, const std::string& reason) {

@@ -10,25 +10,25 @@ using State = EditorState;
 
 constexpr double kBrushStep = 1.25;
 
-DepthBoard& BoardOf(State& state) { return state.steps.depth->board; }
+DepthBoard& MapBoard(State& state) { return state.steps.depth->board; }
 
 bool HasBoard(const State& state) { return Idle(state) && HasPicture(state); }
 
 template <MapTool tool>
 void TakeTool(State& state) {
   state.step = Step::kDepth;
-  BoardOf(state).is_shown = true;
-  BoardOf(state).tool = tool;
+  MapBoard(state).is_shown = true;
+  MapBoard(state).tool = tool;
 }
 
 template <MapLayer layer>
 void ShowLayer(State& state) {
   state.step = Step::kDepth;
-  BoardOf(state).is_shown = true;
-  BoardOf(state).layer = layer;
+  MapBoard(state).is_shown = true;
+  MapBoard(state).layer = layer;
 }
 
-constexpr Command kCommands[] = {
+constexpr Command kDepthCommands[] = {
     {"depth-map",
      "Map of the depth",
      "Show the depth over the panorama: its origin, its uncertainty, distances and profiles.",
@@ -38,7 +38,7 @@ constexpr Command kCommands[] = {
      HasBoard,
      [](State& state) {
        state.step = Step::kDepth;
-       BoardOf(state).is_shown = true;
+       MapBoard(state).is_shown = true;
      }},
     {"depth-scope",
      "Scope view",
@@ -49,7 +49,7 @@ constexpr Command kCommands[] = {
      HasBoard,
      [](State& state) {
        state.step = Step::kDepth;
-       BoardOf(state).is_shown = false;
+       MapBoard(state).is_shown = false;
      }},
     {"map-origin",
      "Origin",
@@ -108,8 +108,8 @@ constexpr Command kCommands[] = {
      HasBoard,
      [](State& state) {
        state.step = Step::kDepth;
-       BoardOf(state).is_shown = true;
-       BoardOf(state).compares = !BoardOf(state).compares;
+       MapBoard(state).is_shown = true;
+       MapBoard(state).compares = !MapBoard(state).compares;
      }},
     {"map-read",
      "Read a depth",
@@ -144,7 +144,7 @@ constexpr Command kCommands[] = {
      HasBoard,
      [](State& state) {
        state.step = Step::kDepth;
-       BoardOf(state).tool = MapTool::kBrush;
+       MapBoard(state).tool = MapTool::kBrush;
        state.steps.depth->touch = {};
      }},
     {"brush-smaller",
@@ -259,6 +259,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> DepthCommands() { return kCommands; }
+std::span<const Command> DepthCommands() { return kDepthCommands; }
 
 }  // namespace arthro::app

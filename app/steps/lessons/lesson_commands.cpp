@@ -48,7 +48,7 @@ void Close(State& state) {
     state.steps.lessons->page = LessonPage::kNone;
 }
 
-constexpr Command kCommands[] = {
+constexpr Command kLessonCommands[] = {
     {"exercise-briefing",
      "Start exercise…",
      "Read what the chosen exercise asks for, then begin it.",
@@ -272,6 +272,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> LessonCommands() { return kCommands; }
+std::span<const Command> LessonCommands() { return kLessonCommands; }
 
 }  // namespace arthro::app

@@ -9,6 +9,7 @@
 #include "app/panels/command_button.h"
 #include "app/panels/fixed_window.h"
 #include "app/panels/options_panel.h"
+#include "app/state/clock_words.h"
 #include "app/steps/lessons/attempt.h"
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/running_attempt.h"
@@ -20,11 +21,6 @@ namespace {
 
 using simulation::AttemptOutcome;
 using simulation::StripState;
-
-std::string ClockWords(double seconds) {
-  const int whole = static_cast<int>(seconds);
-  return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
-}
 
 // Rows of the criteria: what is measured, within which limits, and where they come from.
 void AskedFor(Ui& ui, const Exercise& exercise) {

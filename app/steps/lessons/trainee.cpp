@@ -13,12 +13,12 @@
 namespace arthro::app {
 namespace {
 
-StartBoard& BoardOf(EditorState& state) { return *state.steps.lessons->start; }
+StartBoard& StartOf(EditorState& state) { return *state.steps.lessons->start; }
 
 // Runs `work`; what the records refuse is the page's fault.
 template <class Work>
 void Try(EditorState& state, const Work& work) {
-  StartBoard& board = BoardOf(state);
+  StartBoard& board = StartOf(state);
   board.fault.clear();
   try {
     work();
@@ -49,14 +49,14 @@ void ReadRows(EditorState& state, StartBoard& board) {
 void TakeTraineeCode(EditorState& state, const std::string& code) {
   Try(state, [&] {
     LessonRecords& records = *state.steps.lessons->records;
-    BoardOf(state).unknown = ChooseTrainee(records, code) ? "" : code;
+    StartOf(state).unknown = ChooseTrainee(records, code) ? "" : code;
     if (records.trainee == code) state.message = "Trainee " + code + ".";
   });
 }
 
 void AddTraineeCode(EditorState& state) {
   Try(state, [&] {
-    StartBoard& board = BoardOf(state);
+    StartBoard& board = StartOf(state);
     AddAndChooseTrainee(*state.steps.lessons->records, board.unknown);
     state.message = "Trainee " + std::exchange(board.unknown, "") + " was added.";
   });
@@ -65,14 +65,14 @@ void AddTraineeCode(EditorState& state) {
 void SuggestTraineeCode(EditorState& state) {
   Try(state, [&] {
     LessonRecords& records = *state.steps.lessons->records;
-    StartBoard& board = BoardOf(state);
+    StartBoard& board = StartOf(state);
     if (ReachRecords(records)) board.code = board.unknown = FreeCode(*records.open);
   });
 }
 
 void ChangeTrainee(EditorState& state) {
   LeaveTrainee(*state.steps.lessons->records);
-  StartBoard& board = BoardOf(state);
+  StartBoard& board = StartOf(state);
   board.code.clear();
   board.unknown.clear();
   board.is_stale = true;
@@ -82,11 +82,11 @@ void StartExercise(EditorState& state, int exercise) {
   LessonsStep& step = *state.steps.lessons;
   step.chosen = exercise;
   const LessonRecords& records = *step.records;
-  const std::string code = BoardOf(state).code;
+  const std::string code = StartOf(state).code;
   if (records.trainee.empty() && !records.place.empty() && !code.empty()) {
     TakeTraineeCode(state, code);
     if (records.trainee.empty()) {
-      if (BoardOf(state).fault.empty())
+      if (StartOf(state).fault.empty())
         state.message = "Add this trainee, or clear the code to practise without a record.";
       return;
     }
@@ -95,7 +95,7 @@ void StartExercise(EditorState& state, int exercise) {
 }
 
 const StartBoard& FreshStartBoard(EditorState& state) {
-  StartBoard& board = BoardOf(state);
+  StartBoard& board = StartOf(state);
   const int chosen = state.steps.lessons->chosen;
   const bool is_other = board.attempts_of != chosen || board.document != state.document_number ||
                         board.rows.size() != state.document().scene.exercises.size();

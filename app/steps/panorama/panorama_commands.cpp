@@ -16,7 +16,7 @@ const std::vector<FileFilter>& PictureFilters() {
   return filters;
 }
 
-constexpr Command kCommands[] = {
+constexpr Command kPanoramaCommands[] = {
     {"import-panorama",
      "Import a panorama…",
      "Make a picture the backdrop.",
@@ -99,6 +99,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> PanoramaCommands() { return kCommands; }
+std::span<const Command> PanoramaCommands() { return kPanoramaCommands; }
 
 }  // namespace arthro::app

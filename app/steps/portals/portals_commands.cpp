@@ -78,7 +78,7 @@ void LookAt(State& state) {
   state.message = "View angle " + std::to_string(degrees) + "°";
 }
 
-constexpr Command kCommands[] = {
+constexpr Command kPortalsCommands[] = {
     {"view-0", "0°", "Look along the scope.", "Practice", {GLFW_KEY_1}, {}, ShowsScope, LookAt<0>},
     {"view-30",
      "30°",
@@ -116,6 +116,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> PortalsCommands() { return kCommands; }
+std::span<const Command> PortalsCommands() { return kPortalsCommands; }
 
 }  // namespace arthro::app

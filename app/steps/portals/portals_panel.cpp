@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "app/panels/command_button.h"
+#include "app/panels/drag.h"
 #include "app/panels/fixed_window.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
@@ -17,11 +18,6 @@
 
 namespace arthro::app {
 namespace {
-
-void Drag(EditorState& state, const Change& change) {
-  if (change.held) state.dragging = true;
-  if (change.released) EndDrag(state);
-}
 
 // Least angle, in degrees, that the slider offers of a range that excludes its lower end.
 double LowestShown(const Range& angle) {

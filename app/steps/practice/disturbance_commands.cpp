@@ -4,14 +4,13 @@
 
 #include <GLFW/glfw3.h>
 
+#include "app/state/command.h"
 #include "app/steps/practice/practice_step.h"
 
 namespace arthro::app {
 namespace {
 
 using State = EditorState;
-
-bool Practising(const State& state) { return state.practice.has_value(); }
 
 template <Strength strength>
 void Toggle(State& state) {
@@ -28,7 +27,7 @@ constexpr DisturbanceSwitch kSwitches[] = {
     {"disturb-overexposure", &Disturbances::overexposure},
 };
 
-constexpr Command kCommands[] = {
+constexpr Command kDisturbanceCommands[] = {
     {"disturbances",
      "Disturbances",
      "Choose disturbances of the picture and their strength.",
@@ -119,7 +118,7 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> DisturbanceCommands() { return kCommands; }
+std::span<const Command> DisturbanceCommands() { return kDisturbanceCommands; }
 
 std::span<const DisturbanceSwitch> DisturbanceSwitches() { return kSwitches; }
 

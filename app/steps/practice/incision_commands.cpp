@@ -22,7 +22,7 @@ void Calibrate(State& state) {
   CalibrateIncision(state, role);
 }
 
-constexpr Command kCommands[] = {
+constexpr Command kIncisionCommands[] = {
     {"calibrate-scope",
      "Calibrate scope incision…",
      "Find where the incision lies in the frame of the scope's device.",
@@ -99,6 +99,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> IncisionCommands() { return kCommands; }
+std::span<const Command> IncisionCommands() { return kIncisionCommands; }
 
 }  // namespace arthro::app

@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
+#include "app/state/command.h"
 #include "app/steps/panorama/panorama_step.h"
 #include "app/steps/practice/calibrate_incision.h"
 #include "app/steps/practice/film.h"
@@ -17,8 +18,6 @@ namespace arthro::app {
 namespace {
 
 using State = EditorState;
-
-bool Practising(const State& state) { return state.practice.has_value(); }
 
 // Measurements of a session that ends with them.
 std::string SummaryOf(const simulation::Practice& practice) {
@@ -106,7 +105,7 @@ void StepHead(State& state) {
   TurnHead(state, steps * kHeadStep);
 }
 
-constexpr Command kCommands[] = {
+constexpr Command kPracticeCommands[] = {
     {"practise",
      "Practise",
      "Practise in this scene.",
@@ -275,6 +274,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> PracticeCommands() { return kCommands; }
+std::span<const Command> PracticeCommands() { return kPracticeCommands; }
 
 }  // namespace arthro::app

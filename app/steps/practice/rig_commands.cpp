@@ -53,7 +53,7 @@ void ToggleOffer(State& state) {
   OfferInstrument(state, kind, !simulation::IsOffered(state.document().scene, kind));
 }
 
-constexpr Command kCommands[] = {
+constexpr Command kRigCommands[] = {
     {"rig",
      "Rig",
      "Choose, edit and save the devices that hold the two hands.",
@@ -142,6 +142,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> RigCommands() { return kCommands; }
+std::span<const Command> RigCommands() { return kRigCommands; }
 
 }  // namespace arthro::app

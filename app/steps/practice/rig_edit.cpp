@@ -19,10 +19,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-RigEditing& EditingOf(EditorState& state) { return *state.steps.practice->rig; }
+RigEditing& RigOf(EditorState& state) { return *state.steps.practice->rig; }
 
 void Tell(EditorState& state, std::string words, bool is_fault = false) {
-  RigEditing& editing = EditingOf(state);
+  RigEditing& editing = RigOf(state);
   editing.outcome = state.message = std::move(words);
   editing.is_fault = is_fault;
 }
@@ -56,7 +56,7 @@ RigFile PlainRig() {
 
 void OpenRig(EditorState& state, const fs::path& file) {
   RigFile rig = ReadRig(file);
-  RigEditing& editing = EditingOf(state);
+  RigEditing& editing = RigOf(state);
   editing.rig = std::move(rig);
   editing.file = file;
   editing.is_changed = false;
@@ -67,7 +67,7 @@ void SaveRigTo(EditorState& state, const fs::path& file) {
   if (IsShippedRig(state, file))
     throw Error(Code::kFile, "came with the program and stays as it is; save the rig elsewhere",
                 file);
-  RigEditing& editing = EditingOf(state);
+  RigEditing& editing = RigOf(state);
   WriteRig(file, editing.rig);
   editing.file = file;
   editing.is_changed = false;
@@ -82,8 +82,8 @@ bool MayUseRig(const EditorState& state) {
 
 void UseRig(EditorState& state) {
   try {
-    Hold(state, simulation::ReadHands(EditingOf(state).file, ""));
-    Tell(state, "The rig \"" + EditingOf(state).rig.title + "\" holds the hands of practices.");
+    Hold(state, simulation::ReadHands(RigOf(state).file, ""));
+    Tell(state, "The rig \"" + RigOf(state).rig.title + "\" holds the hands of practices.");
   } catch (const Error& error) {
     Tell(state, error.what(), true);
   }
@@ -96,14 +96,14 @@ void UseNoRig(EditorState& state) {
 
 void FindDevices(EditorState& state) {
   std::string model;
-  for (const auto& role : {EditingOf(state).rig.scope, EditingOf(state).rig.instrument})
+  for (const auto& role : {RigOf(state).rig.scope, RigOf(state).rig.instrument})
     if (role && !role->device.model.empty()) model = role->device.model;
   state.jobs.Start("Look for devices", [model](const Progress&) {
     const auto bus = simulation::MachineHidBus();
     const auto survey =
         std::make_shared<simulation::DeviceSurvey>(simulation::SurveyDevices(*bus, model));
     return [survey](EditorState& now) {  // shared only because a std::function is copied
-      RigEditing& editing = EditingOf(now);
+      RigEditing& editing = RigOf(now);
       editing.devices = survey->devices;
       Tell(now, editing.devices.empty()
                     ? "No known device is plugged in."

@@ -42,7 +42,7 @@ bool HasSeveralParts(const State& state) {
   return HasSolid(state) && state.steps.tissue->solids->solid.parts.size() > 1;
 }
 
-constexpr Command kCommands[] = {
+constexpr Command kSolidCommands[] = {
     {"add-solid",
      "New solid",
      "Add a tissue given by functions: balls, rods, rings and boxes that are joined.",
@@ -127,6 +127,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> SolidCommands() { return kCommands; }
+std::span<const Command> SolidCommands() { return kSolidCommands; }
 
 }  // namespace arthro::app

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
 
+#include "app/state/chosen_tissue.h"
 #include "app/state/edits.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/models/model_in_scene.h"
@@ -25,14 +26,7 @@ namespace {
 constexpr int kPreviewCells = kSolidCells / 2;
 constexpr double kNewRadius = 3e-3;  // m, of the ball that a solid begins with
 
-SolidEditing& EditingOf(EditorState& state) { return *state.steps.tissue->solids; }
-
-const Tissue* ChosenTissue(const EditorState& state) {
-  const auto& tissues = state.document().scene.tissues;
-  return state.tissue >= 0 && state.tissue < static_cast<int>(tissues.size())
-             ? &tissues[static_cast<std::size_t>(state.tissue)]
-             : nullptr;
-}
+SolidEditing& SolidsOf(EditorState& state) { return *state.steps.tissue->solids; }
 
 // Writes `solid` into a new file, and makes it that of a tissue of `document`.
 void PutSolid(authoring::Document& document, std::size_t tissue, const fs::path& file,
@@ -45,7 +39,7 @@ void PutSolid(authoring::Document& document, std::size_t tissue, const fs::path&
 
 // Makes `next` the chosen solid; says why not where it is unfit.
 void ChangeSolid(EditorState& state, const Solid& next, const std::string& what) {
-  SolidEditing& editing = EditingOf(state);
+  SolidEditing& editing = SolidsOf(state);
   if (next == editing.solid && !editing.is_coarse) return;
   const auto at = static_cast<std::size_t>(state.tissue);
   const Tissue tissue = *ChosenTissue(state);
@@ -102,7 +96,7 @@ bool IsSolidChosen(const EditorState& state) {
 
 const Solid* ChosenSolid(EditorState& state) {
   if (!IsSolidChosen(state)) return nullptr;
-  SolidEditing& editing = EditingOf(state);
+  SolidEditing& editing = SolidsOf(state);
   const auto& surface = state.document().surfaces[static_cast<std::size_t>(state.tissue)];
   if (editing.read_of.lock() != surface || !surface) {
     editing.part = 0;
@@ -143,14 +137,14 @@ void AddSolid(EditorState& state) {
   state.tissue = static_cast<int>(state.document().scene.tissues.size()) - 1;
   state.step = Step::kTissue;
   state.steps.tissue->page = TissuePage::kSolid;
-  EditingOf(state).part = 0;
+  SolidsOf(state).part = 0;
   state.message = "A ball lies on the relief; its Solid page has its parts.";
 }
 
 void AddSolidPart(EditorState& state, SolidPart part) {
   const Solid* solid = ChosenSolid(state);
   if (solid == nullptr) return;
-  SolidEditing& editing = EditingOf(state);
+  SolidEditing& editing = SolidsOf(state);
   Solid next = *solid;
   const int at = editing.part + 1;
   next.parts.insert(next.parts.begin() + at, part);
@@ -162,7 +156,7 @@ void RemoveSolidPart(EditorState& state) {
   const Solid* solid = ChosenSolid(state);
   if (solid == nullptr) return;
   Solid next = *solid;
-  next.parts.erase(next.parts.begin() + EditingOf(state).part);
+  next.parts.erase(next.parts.begin() + SolidsOf(state).part);
   ChangeSolid(state, next, "Remove a part of");
   ChosenSolid(state);
 }
@@ -170,7 +164,7 @@ void RemoveSolidPart(EditorState& state) {
 void MoveSolidPart(EditorState& state, int by) {
   const Solid* solid = ChosenSolid(state);
   if (solid == nullptr) return;
-  SolidEditing& editing = EditingOf(state);
+  SolidEditing& editing = SolidsOf(state);
   const int to = editing.part + by;
   if (to < 0 || to >= static_cast<int>(solid->parts.size())) return;
   Solid next = *solid;
@@ -184,7 +178,7 @@ void SetSolidPart(EditorState& state, const SolidPart& changed, const std::strin
   const Solid* solid = ChosenSolid(state);
   if (solid == nullptr) return;
   Solid next = *solid;
-  next.parts[static_cast<std::size_t>(EditingOf(state).part)] = changed;
+  next.parts[static_cast<std::size_t>(SolidsOf(state).part)] = changed;
   ChangeSolid(state, next, what);
 }
 
@@ -194,7 +188,7 @@ PartInPortal ChosenPart(EditorState& state) {
     return {};
   const Solid* solid = ChosenSolid(state);
   if (solid == nullptr) return {};
-  SolidEditing& editing = EditingOf(state);
+  SolidEditing& editing = SolidsOf(state);
   const SolidPart& part = solid->parts[static_cast<std::size_t>(editing.part)];
   const Rigid3& place = PlaceOf(part).solid_from_part;
   SolidPart alone = part;
@@ -212,7 +206,7 @@ PartInPortal ChosenPart(EditorState& state) {
 void PlacePart(EditorState& state, const Pose& portal_from_part, bool is_finished) {
   const Solid* solid = ChosenSolid(state);
   if (solid == nullptr) return;
-  SolidEditing& editing = EditingOf(state);
+  SolidEditing& editing = SolidsOf(state);
   if (!editing.dragged) editing.dragged = solid->parts[static_cast<std::size_t>(editing.part)];
   const Pose tissue = ChosenTissue(state)->pose;
   const glm::dquat turn = glm::conjugate(tissue.quaternion);

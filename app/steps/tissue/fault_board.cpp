@@ -12,7 +12,7 @@
 namespace arthro::app {
 namespace {
 
-SharedSurface ChosenSurface(const EditorState& state) {
+SharedSurface SurfaceToShow(const EditorState& state) {
   const auto& surfaces = state.document().surfaces;
   const bool is_there = state.tissue >= 0 && state.tissue < static_cast<int>(surfaces.size()) &&
                         state.step == Step::kTissue && !state.practice;
@@ -22,7 +22,7 @@ SharedSurface ChosenSurface(const EditorState& state) {
 // Puts the result of `mend` in the place of the chosen surface.
 void Replace(EditorState& state, const std::string& what,
              std::function<SurfaceMesh(const SurfaceMesh&, std::string*, const Progress&)> mend) {
-  const SharedSurface surface = ChosenSurface(state);
+  const SharedSurface surface = SurfaceToShow(state);
   if (!surface) return;
   const std::string name =
       state.document().scene.tissues[static_cast<std::size_t>(state.tissue)].name;
@@ -50,7 +50,7 @@ void Replace(EditorState& state, const std::string& what,
 bool KeepFaultsFresh(EditorState& state) {
   FaultBoard& board = *state.steps.tissue->faults;
   const bool has_changed = board.jobs.busy() && board.jobs.Finish(state);
-  const SharedSurface surface = ChosenSurface(state);
+  const SharedSurface surface = SurfaceToShow(state);
   if (board.jobs.busy() || !surface || board.of == surface) return has_changed;
   board.jobs.Start("Check the surface", [surface](const Progress& progress) {
     auto found = std::make_shared<const authoring::SurfaceFaults>(
@@ -65,7 +65,7 @@ bool KeepFaultsFresh(EditorState& state) {
 
 std::shared_ptr<const authoring::SurfaceFaults> FaultsOfChosen(const EditorState& state) {
   const FaultBoard& board = *state.steps.tissue->faults;
-  const SharedSurface surface = ChosenSurface(state);
+  const SharedSurface surface = SurfaceToShow(state);
   return surface && board.of == surface ? board.found : nullptr;
 }
 

@@ -19,11 +19,11 @@ namespace {
 // behind a bone, or the noise of a relief.
 constexpr double kWorthSaying = 0.1;
 
-const Tissue& ChosenTissue(const EditorState& state) {
+const Tissue& PlacedTissue(const EditorState& state) {
   return state.document().scene.tissues.at(static_cast<std::size_t>(state.tissue));
 }
 
-const SurfaceMesh& ChosenSurface(const EditorState& state) {
+const SurfaceMesh& PlacedSurface(const EditorState& state) {
   return OrEmpty(state.document().surfaces.at(static_cast<std::size_t>(state.tissue)));
 }
 
@@ -59,7 +59,7 @@ const authoring::ReliefFit& FitOfChosen(EditorState& state) {
   HandPlacing::Kept& kept = state.steps.tissue->placing.kept;
   const SharedSurface& surface =
       state.document().surfaces.at(static_cast<std::size_t>(state.tissue));
-  const Pose& pose = ChosenTissue(state).pose;
+  const Pose& pose = PlacedTissue(state).pose;
   if (kept.surface == surface && (kept.pose == pose || state.dragging)) return kept.fit;
   kept.surface = surface;
   kept.pose = pose;
@@ -81,14 +81,14 @@ std::shared_ptr<const std::vector<glm::dvec3>> ShownDistances(EditorState& state
 
 void NoteBefore(EditorState& state) {
   HandPlacing& placing = state.steps.tissue->placing;
-  placing.before = ChosenTissue(state).pose;
-  placing.before_tissue = ChosenTissue(state).name;
+  placing.before = PlacedTissue(state).pose;
+  placing.before_tissue = PlacedTissue(state).name;
   placing.shows_before = false;
 }
 
 bool HasBefore(const EditorState& state) {
   const HandPlacing& placing = state.steps.tissue->placing;
-  return IsPlacePage(state) && placing.before && placing.before_tissue == ChosenTissue(state).name;
+  return IsPlacePage(state) && placing.before && placing.before_tissue == PlacedTissue(state).name;
 }
 
 std::optional<Pose> ShownBefore(const EditorState& state) {
@@ -115,7 +115,7 @@ std::string IntersectionWords(const authoring::ReliefFit& fit) {
 void Nudge(EditorState& state, int axis, double sign) {
   const HandPlacing& placing = state.steps.tissue->placing;
   SetPose(state,
-          authoring::Shifted(ChosenTissue(state).pose, axis, sign * placing.step, placing.axes),
+          authoring::Shifted(PlacedTissue(state).pose, axis, sign * placing.step, placing.axes),
           "Move");
   EndDrag(state);
 }
@@ -123,16 +123,16 @@ void Nudge(EditorState& state, int axis, double sign) {
 void NudgeTurn(EditorState& state, int axis, double sign) {
   const HandPlacing& placing = state.steps.tissue->placing;
   SetPose(state,
-          authoring::Turned(ChosenTissue(state).pose, axis, sign * placing.turn, placing.axes,
-                            authoring::MiddleOf(ChosenSurface(state))),
+          authoring::Turned(PlacedTissue(state).pose, axis, sign * placing.turn, placing.axes,
+                            authoring::MiddleOf(PlacedSurface(state))),
           "Turn");
   EndDrag(state);
 }
 
 void MirrorTissue(EditorState& state) {
-  const SurfaceMesh& surface = ChosenSurface(state);
+  const SurfaceMesh& surface = PlacedSurface(state);
   const double at = authoring::MiddleOf(surface).x;
-  Tissue changed = authoring::Mirrored(ChosenTissue(state), at);
+  Tissue changed = authoring::Mirrored(PlacedTissue(state), at);
   const bool had_mesh = !changed.mesh.empty();
   changed.mesh.clear();
   const auto index = static_cast<std::size_t>(state.tissue);
@@ -156,7 +156,7 @@ void MirrorTissue(EditorState& state) {
 
 void FitToRelief(EditorState& state) {
   const authoring::SurfaceAlignment found = authoring::AlignSurface(
-      ReliefOf(state), ChosenSurface(state), ChosenTissue(state).pose, PatchOf(state));
+      ReliefOf(state), PlacedSurface(state), PlacedTissue(state).pose, PatchOf(state));
   if (found.is_aligned) {
     NoteBefore(state);
     SetPose(state, found.portal_from_tissue, "Fit");
@@ -167,7 +167,7 @@ void FitToRelief(EditorState& state) {
 
 std::optional<Ball> PatchOf(const EditorState& state) {
   const HandPlacing& placing = state.steps.tissue->placing;
-  if (!IsPlacePage(state) || !placing.patch || placing.patch_tissue != ChosenTissue(state).name)
+  if (!IsPlacePage(state) || !placing.patch || placing.patch_tissue != PlacedTissue(state).name)
     return std::nullopt;
   return placing.patch;
 }
@@ -191,12 +191,12 @@ void TakePatch(EditorState& state, int tissue, const glm::dvec3& x_in_tissue) {
   if (!PicksPatch(state)) return;
   if (tissue != state.tissue) {
     state.message =
-        fmt::format("Another tissue was clicked; click on {}.", ChosenTissue(state).name);
+        fmt::format("Another tissue was clicked; click on {}.", PlacedTissue(state).name);
     return;
   }
   HandPlacing& placing = state.steps.tissue->placing;
-  placing.patch = Ball{x_in_tissue, placing.patch_radius / ChosenTissue(state).pose.scale};
-  placing.patch_tissue = ChosenTissue(state).name;
+  placing.patch = Ball{x_in_tissue, placing.patch_radius / PlacedTissue(state).pose.scale};
+  placing.patch_tissue = PlacedTissue(state).name;
   placing.picks_patch = false;
   state.message = "Fit to the relief takes this part now.";
 }
@@ -213,7 +213,7 @@ bool IsOutlined(const EditorState& state) {
 
 bool LaysOnRelief(const EditorState& state) {
   const HandPlacing& placing = state.steps.tissue->placing;
-  return placing.lays && IsPlacePage(state) && ChosenTissue(state).name == placing.tissue &&
+  return placing.lays && IsPlacePage(state) && PlacedTissue(state).name == placing.tissue &&
          !PlacesLandmarks(state);
 }
 
@@ -221,7 +221,7 @@ void ToggleLaying(EditorState& state) {
   HandPlacing& placing = state.steps.tissue->placing;
   placing.lays = !LaysOnRelief(state);
   placing.picks_patch = false;
-  placing.tissue = ChosenTissue(state).name;
+  placing.tissue = PlacedTissue(state).name;
   if (placing.lays) NoteBefore(state);
   state.message = placing.lays ? "Drag over the scope's picture or the overview to lay it there."
                                : "Drags turn and move the views again.";
@@ -236,7 +236,7 @@ void LayTissue(EditorState& state, const authoring::Sight& sight) {
   }
   state.dragging = true;
   SetPose(state,
-          authoring::LaidOnRelief(ReliefOf(state), ChosenSurface(state), ChosenTissue(state).pose,
+          authoring::LaidOnRelief(ReliefOf(state), PlacedSurface(state), PlacedTissue(state).pose,
                                   point->x_in_portal),
           "Lay");
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/state/chosen_tissue.h"
 #include "app/state/edits.h"
 #include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/tissue_step.h"
@@ -17,13 +18,6 @@ namespace {
 
 LandmarkMode& ModeOf(EditorState& state) { return state.steps.tissue->landmarks; }
 const LandmarkMode& ModeOf(const EditorState& state) { return state.steps.tissue->landmarks; }
-
-const Tissue* ChosenTissue(const EditorState& state) {
-  const auto& tissues = state.document().scene.tissues;
-  return state.tissue >= 0 && state.tissue < static_cast<int>(tissues.size())
-             ? &tissues[static_cast<std::size_t>(state.tissue)]
-             : nullptr;
-}
 
 // Pairs of the chosen tissue as the document has them.
 authoring::TissueLandmarks KeptOf(const EditorState& state) {

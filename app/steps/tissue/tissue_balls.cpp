@@ -2,6 +2,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "app/state/chosen_tissue.h"
 #include "app/state/edits.h"
 
 namespace arthro::app {
@@ -21,13 +22,6 @@ Names NamesOf(BallKind kind) {
 }
 
 // Null where none is chosen.
-const Tissue* ChosenTissue(const EditorState& state) {
-  const auto& tissues = state.document().scene.tissues;
-  return state.tissue >= 0 && state.tissue < static_cast<int>(tissues.size())
-             ? &tissues[static_cast<std::size_t>(state.tissue)]
-             : nullptr;
-}
-
 glm::dvec3 InTissue(const Pose& pose, const glm::dvec3& x_in_portal) {
   return (glm::conjugate(pose.quaternion) * (x_in_portal - pose.position)) / pose.scale;
 }

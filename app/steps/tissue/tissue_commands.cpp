@@ -1,6 +1,7 @@
 // Commands for the chosen tissue: its surface, mesh and balls.
 #include <GLFW/glfw3.h>
 
+#include "app/state/command.h"
 #include "app/state/edits.h"
 #include "app/steps/panorama/panorama_step.h"
 #include "app/steps/tissue/fault_board.h"
@@ -24,9 +25,7 @@ void ToggleBrush(State& state) {
                       : "Click on the tissue in either view where its mesh should be finer.";
 }
 
-bool HasPictureAndTime(const State& state) { return Idle(state) && HasPicture(state); }
-
-constexpr Command kCommands[] = {
+constexpr Command kTissueCommands[] = {
     {"import-surface",
      "Import a surface…",
      "Add a tissue from an STL, OBJ, PLY, OFF or VTP file.",
@@ -168,6 +167,6 @@ bool IsTissueChosen(const EditorState& state) {
          state.tissue < static_cast<int>(state.document().scene.tissues.size());
 }
 
-std::span<const Command> TissueCommands() { return kCommands; }
+std::span<const Command> TissueCommands() { return kTissueCommands; }
 
 }  // namespace arthro::app

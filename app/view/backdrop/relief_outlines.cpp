@@ -9,7 +9,7 @@
 namespace arthro::app {
 namespace {
 
-constexpr float kLeastStep =
+constexpr float kLeastJump =
     1.5e-4f;  // m between neighbouring texels; smaller steps show no staircase
 
 // Depth of the silhouette below the near part, m, and as a share of a low step: less than can be
@@ -22,14 +22,14 @@ constexpr float kStepsOfError = 5.0f;
 
 // Least height of a step between two texels, by their standard errors.
 float LeastStep(const DepthMap& sigma, std::size_t a, std::size_t b) {
-  if (sigma.empty()) return kLeastStep;
+  if (sigma.empty()) return kLeastJump;
   const float error = kStepsOfError * std::hypot(sigma.relief[a], sigma.relief[b]);
-  return error > kLeastStep ? error : kLeastStep;  // also where the error is not known (NaN)
+  return error > kLeastJump ? error : kLeastJump;  // also where the error is not known (NaN)
 }
 
 // False for almost all texels, whose standard errors need not be looked at. A step to an unknown
 // texel (NaN) is none.
-bool CanBeStep(float a, float b) { return std::abs(b - a) >= kLeastStep; }
+bool CanBeStep(float a, float b) { return std::abs(b - a) >= kLeastJump; }
 
 // Returns how much higher `b` is than `a` when that is an outline, else 0: before and after it the
 // relief changes by less than half as much. Unknown texels are no outline.

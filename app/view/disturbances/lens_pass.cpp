@@ -12,6 +12,7 @@
 #include "app/view/disturbances/murk_field.h"
 #include "app/view/drawing/passes/pass_state.h"
 #include "app/view/drawing/passes/shader_text.h"
+#include "app/view/drawing/uniform_float.h"
 
 namespace arthro::app {
 namespace {
@@ -37,8 +38,6 @@ std::vector<std::string> DefinesOf(std::size_t variant) {
   if (variant & kNearBlur) defines.push_back("NEAR_BLUR");
   return defines;
 }
-
-float Float(double value) { return static_cast<float>(value); }
 
 }  // namespace
 

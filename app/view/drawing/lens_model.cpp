@@ -21,6 +21,7 @@
 #include "app/view/drawing/passes/shader_text.h"
 #include "app/view/drawing/passes/steady_inputs.h"
 #include "app/view/drawing/srgb.h"
+#include "app/view/drawing/uniform_float.h"
 #include "simulation/scene/mesh/vertex_normals.h"
 
 namespace arthro::app {
@@ -58,8 +59,6 @@ double LongestEdge(const SurfaceMesh& surface) {
                                        surface.vertices[static_cast<std::size_t>(t[(i + 1) % 3])]));
   return longest;
 }
-
-float Float(double value) { return static_cast<float>(value); }
 
 }  // namespace
 

@@ -9,11 +9,11 @@
 #include <glm/mat3x3.hpp>
 
 #include "simulation/core/random.h"
+#include "simulation/core/units.h"
 
 namespace arthro::app {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kPlaceStep = 1e-5;  // m; places at rest are told apart by it
 constexpr int kSides = 3;
 constexpr int kRings = 4;  // below the tip
@@ -94,8 +94,8 @@ std::vector<Strand> Grow(const SurfaceMesh& surface, std::uint64_t kind, const D
       strand.corners = t;
       const double u = std::sqrt(own.Uniform(0.0, 1.0)), v = own.Uniform(0.0, 1.0);
       strand.root = {1.0 - u, u * (1.0 - v), u * v};
-      strand.phase = own.Uniform(0.0, kTurn);
-      strand.rate = kTurn * own.Uniform(kSlowest, kFastest);
+      strand.phase = own.Uniform(0.0, kRadianPerTurn);
+      strand.rate = kRadianPerTurn * own.Uniform(kSlowest, kFastest);
       shape(t, FrameOf(a, b, c), own, strand);
       strands.push_back(strand);
     }
@@ -104,7 +104,7 @@ std::vector<Strand> Grow(const SurfaceMesh& surface, std::uint64_t kind, const D
 }
 
 glm::dvec3 Aside(Random& own) {
-  const double angle = own.Uniform(0.0, kTurn);
+  const double angle = own.Uniform(0.0, kRadianPerTurn);
   return {std::cos(angle), std::sin(angle), 0.0};
 }
 
@@ -185,7 +185,7 @@ StrandMesh MeshOf(std::span<const Strand> strands, std::span<const glm::dvec3> p
       const glm::dvec3 middle = ring == 0 ? root - strand.radius * way : axis_at(share);
       const double radius = strand.radius * std::sqrt(1.0 - share * share * share);
       for (int side = 0; side < kSides; ++side) {
-        const double angle = kTurn * side / kSides;
+        const double angle = kRadianPerTurn * side / kSides;
         const glm::dvec3 out = std::cos(angle) * right + std::sin(angle) * up;
         mesh.surface.vertices.push_back(middle + radius * out);
         mesh.normals.push_back(UnitOr(glm::mix(out, frame[2], kTranslucent), out));

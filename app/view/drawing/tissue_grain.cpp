@@ -7,12 +7,12 @@
 
 #include <glm/geometric.hpp>
 
+#include "simulation/core/units.h"
 #include "simulation/scene/mesh/vertex_normals.h"
 
 namespace arthro::app {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kRootReach = 4e-3;    // m, length of the roots at the ends of a crescent
 constexpr double kBorderReach = 2e-3;  // m, width of a plate's border
 constexpr double kSide = 0.6;          // cosine to the plane's normal; a side has less
@@ -53,7 +53,7 @@ void TissueGrain::FindCrescent(const SurfaceMesh& whole) {
   const auto take = [&](const glm::dvec3& flat) {
     const double r = std::hypot(flat.x, flat.y);
     const double at =
-        std::remainder(AngleInPlane(flat) - begin_ - 0.5 * sweep_, kTurn) + 0.5 * sweep_;
+        std::remainder(AngleInPlane(flat) - begin_ - 0.5 * sweep_, kRadianPerTurn) + 0.5 * sweep_;
     const auto bin = static_cast<std::size_t>(
         std::clamp(std::lround(at / sweep_ * kBins), 0L, static_cast<long>(kBins)));
     inner_[bin] = std::min(inner_[bin], r);
@@ -88,7 +88,7 @@ void TissueGrain::FindCrescent(const SurfaceMesh& whole) {
 
 GrainPoint TissueGrain::InCrescent(const glm::dvec3& flat) const {
   const double at =
-      std::remainder(AngleInPlane(flat) - begin_ - 0.5 * sweep_, kTurn) + 0.5 * sweep_;
+      std::remainder(AngleInPlane(flat) - begin_ - 0.5 * sweep_, kRadianPerTurn) + 0.5 * sweep_;
   const double share = std::clamp(at / sweep_, 0.0, 1.0) * kBins;
   const auto bin = std::min(static_cast<std::size_t>(share), static_cast<std::size_t>(kBins - 1));
   const double part = share - static_cast<double>(bin);

@@ -12,6 +12,7 @@
 #include "app/view/drawing/grain.h"
 #include "app/view/drawing/passes/pass_state.h"
 #include "app/view/drawing/passes/shader_text.h"
+#include "app/view/drawing/uniform_float.h"
 
 namespace arthro::app {
 namespace {
@@ -20,8 +21,6 @@ namespace {
 // picture per pixel, a tenth of the camera's work.
 constexpr double kNearFringe = 0.8;      // px at the rim
 constexpr double kMeteredRadius = 0.92;  // window radii; the rim is dark by its optics
-
-float Float(double value) { return static_cast<float>(value); }
 
 // Window places whose rays meet the instrument or lie at the rim do not count.
 bool Counts(const simulation::ScopeOptics& optics, const LensShade& shade, int column, int row) {

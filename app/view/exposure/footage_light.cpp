@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kBlocks = 96;         // blocks along the longer side
 constexpr double kWidth = 1.0 / 6;  // sigma of the low-pass filter, over the longer side
-constexpr double kMostGain = 3;
+constexpr double kMostLight = 3;
 
 // Gaussian means of one line, each value with its weight.
 void Smooth(std::vector<double>& values, std::vector<double>& weights, std::size_t first,
@@ -192,7 +192,7 @@ void EvenLight(LightGrid& grid, double share) {
   for (std::size_t i = 0; i < grid.blocks.size(); ++i) {
     const double light = weights[i] > 0 ? values[i] / weights[i] : mean;
     const double gain = light > 0 && mean > 0 ? std::pow(mean / light, share) : 1.0;
-    grid.blocks[i].gain = static_cast<float>(std::clamp(gain, 1 / kMostGain, kMostGain));
+    grid.blocks[i].gain = static_cast<float>(std::clamp(gain, 1 / kMostLight, kMostLight));
   }
 }
 

@@ -18,7 +18,7 @@ using simulation::Capsule;
 using simulation::ToolKind;
 using simulation::ToolShape;
 
-constexpr int kSides = 20;
+constexpr int kShaftSides = 20;
 
 // ---- Jaws and what holds them ----
 
@@ -112,7 +112,7 @@ void AddShaft(SurfaceMesh& mesh, double radius, double end, double length, doubl
     stations.push_back({z, radius});
   const int edge = static_cast<int>(stations.size()) - 1;
   stations.push_back({end, radius - kBevel});
-  AddRod(mesh, stations, kSides, {edge});
+  AddRod(mesh, stations, kShaftSides, {edge});
 }
 
 void AddGrasper(ToolMesh& tool, const ToolShape& shape, double spacing, double length) {

@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "authoring/panorama/graph/links/pair_graph.h"
+#include "simulation/core/at.h"
 
 namespace arthro::authoring {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 struct Triangle {
   std::array<int, 3> pairs;

@@ -12,11 +12,10 @@
 #include "authoring/panorama/graph/links/pair_graph.h"
 #include "authoring/panorama/graph/panorama_plane.h"
 #include "authoring/panorama/graph/refinement/uncertainty.h"
+#include "simulation/core/at.h"
 
 namespace arthro::authoring {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 // Pairs of one piece, and their indices in the whole list.
 struct PiecePairs {

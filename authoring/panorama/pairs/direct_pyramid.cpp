@@ -26,7 +26,7 @@ constexpr float kInvalid = 1e9f;
 // Shares of the option most_points, for one band of each level: coarse levels have fewer waves to
 // place.
 constexpr double kShareOfPoints[kDirectLevels] = {0.4, 0.4, 0.25};
-constexpr std::size_t kFewestPoints = 64;  // on the coarsest level
+constexpr std::size_t kFewestCoarse = 64;  // on the coarsest level
 
 // Value times weight, and weight.
 cv::Mat Weighted(const WorkingFrame& frame) {
@@ -208,8 +208,8 @@ DirectPyramid::DirectPyramid(const WorkingFrame& frame, const DirectOptions& opt
     level.bands[kRelief] = Compact(RadialDifference(band), most);
   }
   const DirectLevel& last = levels_[kDirectLevels - 1];
-  if (last.bands[kColour].points.size() < kFewestPoints ||
-      last.bands[kRelief].points.size() < kFewestPoints)
+  if (last.bands[kColour].points.size() < kFewestCoarse ||
+      last.bands[kRelief].points.size() < kFewestCoarse)
     return;
   for (const Texture texture : {kColour, kRelief})
     cv::dft(ApodisedBand(last.bands[texture], SpectrumSize(last.size())), spectra_[texture], 0,

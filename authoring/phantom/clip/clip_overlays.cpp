@@ -10,7 +10,7 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kUsualRadius = 300;  // px
+constexpr double kBoxRadius = 300;  // px
 
 struct Shaft {
   cv::Point2d tip, along;  // unit
@@ -32,7 +32,7 @@ cv::Mat Clouds(const ClipOptions& options, double radius) {
   if (options.haze <= 0) return {};
   Random random(static_cast<std::uint64_t>(options.seed) * 31 + 5);
   return PlaneNoise({options.width / 2 + 2, options.height / 2 + 2},
-                    {160 * radius / kUsualRadius / 4, 3}, random);
+                    {160 * radius / kBoxRadius / 4, 3}, random);
 }
 
 void AddHaze(const cv::Mat& clouds, double strength, int frame, cv::Mat& picture) {
@@ -56,7 +56,7 @@ void AddHaze(const cv::Mat& clouds, double strength, int frame, cv::Mat& picture
 
 void AddDebris(const ClipOptions& options, double radius, int frame, cv::Mat& picture) {
   constexpr float kCover = 0.6f;
-  const double scale = radius / kUsualRadius;
+  const double scale = radius / kBoxRadius;
   Random random(static_cast<std::uint64_t>(options.seed) * 131 + 9);
   for (int i = 0; i < options.debris; ++i) {
     const auto drift = [&] { return 14 * scale * NormalOf(random.Next()); };

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "authoring/phantom/shape/noise.h"
+#include "simulation/core/units.h"
 
 namespace arthro::authoring {
 namespace {
 
-constexpr double kTurn = 2.0 * 3.14159265358979323846;
 constexpr int kRows = 3;
 
 // Position at a share of the path along rows to and fro; rows `length` long and `gap` apart.
@@ -61,18 +61,18 @@ ClipPathway::ClipPathway(const ClipOptions& options, cv::Size2d world, double ra
   const auto wave = [&](double amplitude, double period) {
     Wave w;
     w.amplitude = options.path == ClipPath::kStill ? 0.0 : amplitude;
-    w.slow = kTurn * random.Uniform(0.6, 1.4) / period;
-    w.fast = 2.1 * kTurn * random.Uniform(0.6, 1.4) / period;
-    w.phase = random.Uniform(0, kTurn);
-    w.phase_fast = random.Uniform(0, kTurn);
+    w.slow = kRadianPerTurn * random.Uniform(0.6, 1.4) / period;
+    w.fast = 2.1 * kRadianPerTurn * random.Uniform(0.6, 1.4) / period;
+    w.phase = random.Uniform(0, kRadianPerTurn);
+    w.phase_fast = random.Uniform(0, kRadianPerTurn);
     return w;
   };
   tilt_x_ = wave(options.tilt, 24);
   tilt_y_ = wave(options.tilt, 31);
   turn_ = wave(options.roll, 45);
   zoom_ = wave(options.zoom, 37);
-  start_ = random.Uniform(0, kTurn);
-  for (double& phase : phase_) phase = random.Uniform(0, kTurn);
+  start_ = random.Uniform(0, kRadianPerTurn);
+  for (double& phase : phase_) phase = random.Uniform(0, kRadianPerTurn);
   if (options.path == ClipPath::kWander) {
     // Slows down so that the mean step has the requested length, if the plane has room for it.
     double length = 0;
@@ -95,8 +95,8 @@ cv::Point2d ClipPathway::PlaceAt(double t) const {
       return {0, 0};
     case ClipPath::kLoop: {
       const double flat = std::min(1.0, reach_.y / std::max(1.0, reach_.x));
-      const double r = std::min(length / (kTurn * 0.85), reach_.x);
-      const double a = kTurn * share + start_;
+      const double r = std::min(length / (kRadianPerTurn * 0.85), reach_.x);
+      const double a = kRadianPerTurn * share + start_;
       return {r * std::cos(a), std::min(r * flat * 1.1, reach_.y) * std::sin(a)};
     }
     case ClipPath::kStrip: {
@@ -113,7 +113,7 @@ cv::Point2d ClipPathway::PlaceAt(double t) const {
       return (at(t - 0.7) + at(t) + at(t + 0.7)) * (1.0 / 3);
     }
     case ClipPath::kWander: {
-      const double a = kTurn * t / std::max(1, n);
+      const double a = kRadianPerTurn * t / std::max(1, n);
       return wander_scale_ *
              cv::Point2d(
                  reach_.x * (0.55 * std::sin(a + phase_[0]) + 0.3 * std::sin(3 * a + phase_[1])),

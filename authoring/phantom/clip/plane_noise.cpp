@@ -7,11 +7,12 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "simulation/core/units.h"
+
 namespace arthro::authoring {
 namespace {
 
 constexpr int kQuantiles = 4096;
-constexpr double kTurn = 2.0 * 3.14159265358979323846;
 
 // Inverse of the cumulative normal distribution [Acklam 2003].
 double Quantile(double p) {
@@ -131,7 +132,7 @@ cv::Mat VesselsOnPlane(cv::Size size, int count, double thickness, double scale,
   Walk walk{drawn, random, scale};
   for (int i = 0; i < count; ++i) {
     const double x = random.Uniform(0, size.width), y = random.Uniform(0, size.height),
-                 heading = random.Uniform(0, kTurn), length = random.Uniform(300, 1500),
+                 heading = random.Uniform(0, kRadianPerTurn), length = random.Uniform(300, 1500),
                  thick = random.Uniform(1, thickness);
     walk.Go(x, y, heading, length, thick, 0);
   }

@@ -13,18 +13,12 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kMm = kMetrePerMillimetre;
-
 // Position of the light, beside the scope's lens.
 constexpr glm::dvec3 kLight(0.8 * kMm, -2.6 * kMm, 0.0);
 constexpr double kLightReference = 30.0 * kMm;  // distance of unit light
 // Exponent of the falloff with distance. It is below 2 because of the camera's exposure control and
 // of light scattered within the joint.
 constexpr double kFalloff = 0.8;
-
-glm::dvec3 Mix(const glm::dvec3& a, const glm::dvec3& b, double t) {
-  return a + (b - a) * std::clamp(t, 0.0, 1.0);
-}
 
 const glm::dvec3 kBounceColour(0.115, 0.066, 0.054);  // reflected by all other walls
 const glm::dvec3 kHazeColour(0.40, 0.31, 0.27);       // light scattered by cloudy water

@@ -3,6 +3,8 @@
 // the view adds them. Linear RGB; the exposure sets the scale of the light.
 #pragma once
 
+#include <algorithm>
+
 #include <glm/vec3.hpp>
 
 #include "authoring/phantom/look/vessels.h"
@@ -18,6 +20,11 @@ struct Look {
   double texture = 1.0, vessels = 1.0, haze = 0.0, light = 1.0;
 };
 Look LookOf(Difficulty difficulty);
+
+// Colour between two; beyond 0 and 1, the nearer one.
+inline glm::dvec3 Mix(const glm::dvec3& a, const glm::dvec3& b, double t) {
+  return a + (b - a) * std::clamp(t, 0.0, 1.0);
+}
 
 // Properties of one surface point that the picture needs; portal frame.
 struct SurfacePoint {

@@ -12,8 +12,6 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kMm = kMetrePerMillimetre;
-
 // Noise channels: each draws its own values from the cavity's seed.
 enum NoiseChannel : std::uint32_t {
   kCartilageCloud = 51,
@@ -44,10 +42,6 @@ enum NoiseChannel : std::uint32_t {
 // The tibial cartilage draws other noise than the femoral one.
 constexpr std::uint32_t kTibialSeed = 5;
 constexpr double kNoWall = 1.0;  // m; no synovium behind, since the plateau has its own capsule
-
-glm::dvec3 Mix(const glm::dvec3& a, const glm::dvec3& b, double t) {
-  return a + (b - a) * std::clamp(t, 0.0, 1.0);
-}
 
 // Linear RGB of the tissues. No value here is measured: colours, sizes of features and their
 // strengths are chosen to resemble arthroscopic pictures.

@@ -20,18 +20,18 @@ constexpr int kGenerations = 6;    // generations of branches
 constexpr double kSoftness = 2.2;  // blur of a deep vessel, in radii
 
 // Cells of two degrees over the whole sphere.
-constexpr int kColumns = 180, kRows = 90;
+constexpr int kWebColumns = 180, kWebRows = 90;
 
-int ColumnOf(double longitude) {
+int WebColumn(double longitude) {
   const int column =
-      static_cast<int>(std::floor((longitude / (2.0 * std::numbers::pi) + 0.5) * kColumns));
-  return ((column % kColumns) + kColumns) % kColumns;
+      static_cast<int>(std::floor((longitude / (2.0 * std::numbers::pi) + 0.5) * kWebColumns));
+  return ((column % kWebColumns) + kWebColumns) % kWebColumns;
 }
-int RowOf(double latitude) {
-  return std::clamp(static_cast<int>(std::floor((latitude / std::numbers::pi + 0.5) * kRows)), 0,
-                    kRows - 1);
+int WebRow(double latitude) {
+  return std::clamp(static_cast<int>(std::floor((latitude / std::numbers::pi + 0.5) * kWebRows)), 0,
+                    kWebRows - 1);
 }
-double LatitudeOf(const glm::dvec3& d) { return -std::asin(std::clamp(d.y, -1.0, 1.0)); }
+double LatitudeOfRay(const glm::dvec3& d) { return -std::asin(std::clamp(d.y, -1.0, 1.0)); }
 
 }  // namespace
 
@@ -95,30 +95,30 @@ void VesselTrees::Grow(std::uint64_t seed, glm::dvec3 at, glm::dvec3 heading, do
 }
 
 void VesselTrees::Sort() {
-  cells_.resize(static_cast<std::size_t>(kColumns) * kRows);
+  cells_.resize(static_cast<std::size_t>(kWebColumns) * kWebRows);
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const VesselSegment& s = segments_[i];
     const double reach = 0.5 * kStep + kSoftness * s.from_radius + 0.01;
     const glm::dvec3 middle = glm::normalize(s.from + s.to);
-    const double latitude = LatitudeOf(middle), longitude = std::atan2(middle.x, middle.z);
+    const double latitude = LatitudeOfRay(middle), longitude = std::atan2(middle.x, middle.z);
     const double widest = std::max(std::abs(latitude - reach), std::abs(latitude + reach));
     const double stretch = std::cos(std::min(widest, 1.55));
     const double across = std::min(reach / std::max(stretch, 0.05), std::numbers::pi);
-    const int row_from = RowOf(latitude - reach), row_to = RowOf(latitude + reach);
+    const int row_from = WebRow(latitude - reach), row_to = WebRow(latitude + reach);
     const int columns = std::min(
-        static_cast<int>(std::ceil(2.0 * across / (2.0 * std::numbers::pi) * kColumns)) + 1,
-        kColumns);
-    const int column_from = ColumnOf(longitude - across);
+        static_cast<int>(std::ceil(2.0 * across / (2.0 * std::numbers::pi) * kWebColumns)) + 1,
+        kWebColumns);
+    const int column_from = WebColumn(longitude - across);
     for (int row = row_from; row <= row_to; ++row)
       for (int k = 0; k < columns; ++k)
-        cells_[static_cast<std::size_t>(row) * kColumns + (column_from + k) % kColumns].push_back(
-            static_cast<std::uint32_t>(i));
+        cells_[static_cast<std::size_t>(row) * kWebColumns + (column_from + k) % kWebColumns]
+            .push_back(static_cast<std::uint32_t>(i));
   }
 }
 
 VesselTrees::Cover VesselTrees::At(const glm::dvec3& d) const {
-  const auto& cell = cells_[static_cast<std::size_t>(RowOf(LatitudeOf(d))) * kColumns +
-                            ColumnOf(std::atan2(d.x, d.z))];
+  const auto& cell = cells_[static_cast<std::size_t>(WebRow(LatitudeOfRay(d))) * kWebColumns +
+                            WebColumn(std::atan2(d.x, d.z))];
   Cover cover;
   for (const std::uint32_t index : cell) {
     const VesselSegment& s = segments_[index];

@@ -9,7 +9,6 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kMm = kMetrePerMillimetre;
 constexpr int kRings = 13;             // spaced by about 0.6 mm
 constexpr double kProud = 0.04 * kMm;  // height of the layer over the cartilage around it
 constexpr double kGlue = 0.05 * kMm;   // gap between the layer and the bed

@@ -16,11 +16,10 @@ namespace arthro::authoring {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kMm = kMetrePerMillimetre;
 
 // Noise channels: each draws its own values from the cavity's seed. Noise of k d, d a unit
 // direction, has about k features per rad.
-enum NoiseChannel : std::uint32_t {
+enum WallNoise : std::uint32_t {
   kFoldWarpX = 11,
   kFoldWarpY = 12,
   kFoldWarpZ = 13,

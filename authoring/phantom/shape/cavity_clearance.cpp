@@ -11,8 +11,6 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kMm = kMetrePerMillimetre;
-
 // Minimum of two distances with a fillet: exact where they differ by more than kFillet.
 double FilletedMinimum(double a, double b) {
   constexpr double kFillet = 7.0 * kMm;

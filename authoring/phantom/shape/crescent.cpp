@@ -7,13 +7,10 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "authoring/phantom/shape/noise.h"
+#include "simulation/core/units.h"
 
 namespace arthro::authoring {
-namespace {
-
-constexpr double kMm = kMetrePerMillimetre;
-
-}  // namespace
+namespace {}  // namespace
 
 Crescent MakeCrescent(const Cavity& cavity) {
   Random random(0x3E415C05ull + cavity.seed);

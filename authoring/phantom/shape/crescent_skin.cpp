@@ -9,13 +9,12 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kMm = kMetrePerMillimetre;
-
 // One closed profile: bottom from the free edge outwards, up the rim, back over the top, round the
 // edge.
-constexpr int kFlat = 9, kRim = 4;  // spans along bottom or top, and points between them on the rim
-constexpr int kProfile = 2 * (kFlat + 1) + kRim + 1;
-constexpr int kEdge = kProfile - 1, kShoulder = kFlat + kRim + 1;
+constexpr int kFlat = 9,
+              kRimPoints = 4;  // spans along bottom or top, and points between them on the rim
+constexpr int kProfile = 2 * (kFlat + 1) + kRimPoints + 1;
+constexpr int kEdge = kProfile - 1, kShoulder = kFlat + kRimPoints + 1;
 
 struct ProfilePoint {
   glm::dvec3 x;
@@ -30,13 +29,13 @@ ProfilePoint ProfileAt(const Crescent& c, const CrescentGround& ground, double a
     const double q = static_cast<double>(index) / kFlat;
     return {ground(angle, inner + q * wedge.width, c.film), q};
   }
-  if (index <= kFlat + kRim) {
-    const double up = static_cast<double>(index - kFlat) / (kRim + 1);
+  if (index <= kFlat + kRimPoints) {
+    const double up = static_cast<double>(index - kFlat) / (kRimPoints + 1);
     const double bulge = RimBulge(wedge, up);
     return {ground(angle, outer + bulge, c.film + up * (top(1.0) - c.film)), 1.0};
   }
-  if (index <= 2 * kFlat + kRim + 1) {
-    const double q = static_cast<double>(2 * kFlat + kRim + 1 - index) / kFlat;
+  if (index <= 2 * kFlat + kRimPoints + 1) {
+    const double q = static_cast<double>(2 * kFlat + kRimPoints + 1 - index) / kFlat;
     return {ground(angle, inner + q * wedge.width, top(q)), q};
   }
   return {ground(angle, inner - 0.45 * edge, c.film + 0.5 * edge), 0.0};
@@ -91,14 +90,14 @@ CrescentSkin SkinOf(const Crescent& c, const CrescentGround& ground) {
       else
         triangles.push_back({vertex(ring, i), vertex(ring, j), vertex(ring, k)});
     };
-    const auto top = [](int i) { return 2 * kFlat + kRim + 1 - i; };
+    const auto top = [](int i) { return 2 * kFlat + kRimPoints + 1 - i; };
     for (int i = 0; i + 1 < kFlat; ++i) {
       face(i, i + 1, top(i + 1));
       face(i, top(i + 1), top(i));
     }
     // Triangles of the rim's lower half share the second last point of the bottom, those of its
     // upper half the second last of the top.
-    constexpr int kLow = kFlat - 1, kMiddle = kFlat + (kRim + 1) / 2;
+    constexpr int kLow = kFlat - 1, kMiddle = kFlat + (kRimPoints + 1) / 2;
     for (int i = kFlat; i < kMiddle; ++i) face(kLow, i, i + 1);
     face(kLow, kMiddle, top(kLow));
     for (int i = kMiddle; i < top(kFlat); ++i) face(top(kLow), i, i + 1);

@@ -11,11 +11,10 @@
 
 #include "authoring/phantom/shape/crescent.h"
 #include "authoring/phantom/shape/crescent_skin.h"
+#include "simulation/core/units.h"
 
 namespace arthro::authoring {
 namespace {
-
-constexpr double kMm = kMetrePerMillimetre;
 
 // Place in a cross-section: q from the free edge (0) to the rim (1), t from bottom to top.
 struct SectionPoint {

@@ -12,10 +12,8 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kMm = kMetrePerMillimetre;
-
 // Noise channels: each draws its own values from the plateau's seed.
-enum NoiseChannel : std::uint32_t { kSlopeLobules = 201, kWallLumps = 202 };
+enum PlateauNoise : std::uint32_t { kSlopeLobules = 201, kWallLumps = 202 };
 
 constexpr double kRollFrom = 0.9;  // share of the way to the rim from which the plateau rolls off
 // Shares of the way to the rim between which fat covers the front slope.

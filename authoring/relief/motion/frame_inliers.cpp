@@ -9,6 +9,7 @@
 
 #include "authoring/relief/median.h"
 #include "authoring/relief/motion/growth.h"
+#include "simulation/core/at.h"
 
 namespace arthro::authoring {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 constexpr int kFollowed = 40;          // tracks of a frame that can be posed
 constexpr std::size_t kLongTrack = 5;  // observations
 constexpr double kLongReach = 10;      // px of residual, beyond which an observation is wrong
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 // Residuals of one area of one frame that point the same way: tissue that moved, not noise.
 class Coherence {

@@ -8,13 +8,13 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
+#include "simulation/core/at.h"
+
 namespace arthro::authoring {
 namespace {
 
 constexpr double kLeastAngle = 0.02618;  // rad (1.5°) between the rays of a point
 constexpr double kGrowthPerAdjustment = 1.2;
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 // Largest angle between two used rays of a point.
 double AngleOf(const Reconstruction& scene, const Track& track, const TrackPoint& point) {

@@ -10,6 +10,7 @@
 #include <opencv2/features2d.hpp>
 
 #include "authoring/relief/motion/growth.h"
+#include "simulation/core/at.h"
 
 namespace arthro::authoring {
 namespace {
@@ -17,10 +18,8 @@ namespace {
 constexpr int kLeastAgreeing = 15;         // shared points that agree with a similarity
 constexpr double kLeastAgreement = 0.15;   // share of the shared points; look-alikes are many
 constexpr double kAgrees = 1.5 * kInlier;  // px, before the adjustment of the whole
-constexpr double kRatio = 0.85;            // best over second-best descriptor distance
+constexpr double kJoinRatio = 0.85;        // best over second-best descriptor distance
 constexpr int kTrials = 1500;
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 // One tissue point in both pieces, by the numbers of its points.
 struct SharedPoint {
@@ -74,7 +73,7 @@ std::vector<std::optional<std::size_t>> MostAlike(const Looks& from, const Looks
     const auto second = std::find_if(nearest.begin() + 1, nearest.end(), [&](const auto& match) {
       return to.point_of[At(match.trainIdx)] != point;
     });
-    if (second == nearest.end() || nearest[0].distance > kRatio * second->distance) continue;
+    if (second == nearest.end() || nearest[0].distance > kJoinRatio * second->distance) continue;
     const std::size_t own = from.point_of[At(nearest[0].queryIdx)];
     if (nearest[0].distance >= least[own]) continue;
     least[own] = nearest[0].distance;

@@ -11,6 +11,7 @@
 #include "authoring/relief/motion/growth.h"
 #include "authoring/relief/motion/join_pieces.h"
 #include "authoring/relief/motion/pair_model.h"
+#include "simulation/core/at.h"
 
 namespace arthro::authoring {
 namespace {
@@ -18,8 +19,6 @@ namespace {
 constexpr int kLeastShared = 40;  // tracks of a pair that a reconstruction starts from
 constexpr int kStarts = 8;        // pairs that are tried as a start of a piece
 constexpr int kGrowths = 4;       // starts from which the largest piece is grown
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 struct Start {
   int a, b;

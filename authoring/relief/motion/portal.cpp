@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include "authoring/relief/median.h"
+#include "simulation/core/at.h"
 #include "simulation/core/units.h"
 
 namespace arthro::authoring {
@@ -18,9 +19,7 @@ constexpr double kClearly = 0.4;  // share of the simpler explanation's miss
 constexpr double kSkinGives = 0.03;
 // Share of the insertion by which shafts may miss under an explanation with more unknowns.
 constexpr double kExplains = 0.05;
-constexpr int kLeastFrames = 6;  // least frames of a stretch, and of a wandering head
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
+constexpr int kLeastStretch = 6;  // least frames of a stretch, and of a wandering head
 
 double CostOf(const PivotFit& fit) {
   return fit.median_insertion > 0 ? fit.median_miss / fit.median_insertion : 1e9;
@@ -59,7 +58,7 @@ PivotFit FindSlide(const Poses& poses, double view_angle, const PivotFit& locked
     if (poses[f]) posed.push_back(static_cast<int>(f));
   PivotFit best = locked;
   double least = 1e300;
-  for (int k = kLeastFrames; k + kLeastFrames <= static_cast<int>(posed.size()); ++k) {
+  for (int k = kLeastStretch; k + kLeastStretch <= static_cast<int>(posed.size()); ++k) {
     Poses before = poses, after = poses;
     std::fill(before.begin() + posed[At(k)], before.end(), std::nullopt);
     std::fill(after.begin(), after.begin() + posed[At(k)], std::nullopt);
@@ -150,7 +149,7 @@ PivotFit FindWandering(const Poses& poses, double view_angle, const PivotFit& lo
       ++count;
     }
   PivotFit best = locked;
-  if (count < kLeastFrames) return best;
+  if (count < kLeastStretch) return best;
   middle /= count;
   axis.normalize();
   double spread = 0;

@@ -11,23 +11,22 @@
 #include "authoring/panorama/graph/links/parallel.h"
 #include "authoring/relief/median.h"
 #include "authoring/relief/surface/relief_layout.h"
+#include "authoring/relief/surface/surface_view.h"
+#include "simulation/core/at.h"
 #include "simulation/scene/relief_origin.h"
 
 namespace arthro::authoring {
 namespace {
 
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr int kLeastViews = 3;
 constexpr double kReach = 0.36;       // to either side of the closed surface, in ln r
 constexpr int kTried = 25;            // radii
-constexpr double kLeastSpread = 0.1;  // rms over the frames, of the change of brightness with ln r
+constexpr double kLeastChange = 0.1;  // rms over the frames, of the change of brightness with ln r
 constexpr double kBlur = 3;           // px: the texture that misplaced pixels would show
 constexpr double kDarkest = 0.03, kBrightest = 0.94;  // share of white that is read
 constexpr int kLeastChecks = 60;   // measured cells that the estimate is compared with
 constexpr double kUseless = 0.25;  // ln r: an estimate with a larger error is none
 constexpr int kCheckStride = 3;    // cells
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 std::uint8_t Number(ReliefOrigin origin) { return static_cast<std::uint8_t>(origin); }
 
@@ -44,7 +43,8 @@ cv::Mat ExposureOf(const cv::Mat& picture, const LightModel& light) {
   float table[256];
   for (int grey = 0; grey < 256; ++grey) {
     const double y = grey / 255.0;
-    table[grey] = y < kDarkest || y > kBrightest ? kUnknown : static_cast<float>(light.Exposure(y));
+    table[grey] =
+        y < kDarkest || y > kBrightest ? kUnknownRange : static_cast<float>(light.Exposure(y));
   }
   cv::Mat exposure(picture.size(), CV_32F);
   for (int y = 0; y < picture.rows; ++y)
@@ -95,7 +95,7 @@ class Estimator {
     logarithm = middle + kReach * (2.0 * best / (kTried - 1) - 1) + step * offset;
     // How the incident light of the frames changes apart with the radius.
     const double spread = Spread(x, y, seen_by, logarithm, step);
-    if (spread < kLeastSpread) return false;
+    if (spread < kLeastChange) return false;
     Read(x, y, seen_by, logarithm, readings);
     const auto n = static_cast<double>(readings.size());
     if (n < kLeastViews) return false;
@@ -186,8 +186,8 @@ BrightnessRange RangeFromBrightness(const std::vector<SurfaceView>& views,
                                     const SurfaceCells& cells, const ClosedSurface& closed,
                                     const std::vector<cv::Mat>& visible, int threads,
                                     const Progress& progress) {
-  BrightnessRange found{cv::Mat(cells.size, CV_32F, cv::Scalar(kUnknown)),
-                        cv::Mat(cells.size, CV_32F, cv::Scalar(kUnknown))};
+  BrightnessRange found{cv::Mat(cells.size, CV_32F, cv::Scalar(kUnknownRange)),
+                        cv::Mat(cells.size, CV_32F, cv::Scalar(kUnknownRange))};
   // The light, from the measured cells only.
   ReliefLayoutRequest request;
   std::vector<cv::Mat> measured;

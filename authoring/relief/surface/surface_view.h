@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -15,6 +16,9 @@
 #include "simulation/scene/projection.h"
 
 namespace arthro::authoring {
+
+// Range of a cell that nothing tells.
+inline constexpr float kUnknownRange = std::numeric_limits<float>::quiet_NaN();
 
 // Directions of the cells, row by row; a cell is a pixel of the projection.
 struct SurfaceCells {

@@ -12,19 +12,17 @@
 #include "authoring/panorama/graph/links/parallel.h"
 #include "authoring/relief/surface/semi_global.h"
 #include "authoring/relief/surface/surface_view.h"
+#include "simulation/core/at.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 
 namespace arthro::authoring {
 namespace {
 
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr int kLeastFrames = 3;      // least number of frames that see a cell
 constexpr double kFurthest = 80;     // degrees from the axis of the portal frame
 constexpr float kLeastShare = 0.6f;  // share of a window's cells that a frame must see
 constexpr float kNoise = 4.0f;       // grey levels; windows with less contrast count less
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 float Sample(const cv::Mat& picture, const double* pixel) {
   const int x = static_cast<int>(pixel[0]), y = static_cast<int>(pixel[1]);
@@ -151,7 +149,7 @@ Round RunRound(const std::vector<SurfaceView>& views, const LensProfile& lens,
 
 // Radius of a layer that lies between two.
 cv::Mat RadiusOf(const LayerChoice& choice, const std::vector<cv::Mat>& radii) {
-  cv::Mat radius(choice.layer.size(), CV_32F, cv::Scalar(kUnknown));
+  cv::Mat radius(choice.layer.size(), CV_32F, cv::Scalar(kUnknownRange));
   const float last = static_cast<float>(radii.size() - 1);
   for (int y = 0; y < radius.rows; ++y)
     for (int x = 0; x < radius.cols; ++x) {
@@ -432,7 +430,7 @@ SweptSurface SweepSurface(const std::vector<WorkingFrame>& frames, const LensPro
       ViewAgreement(ViewsOf(frames, scene, 1.0), lens, cells, radius, 9, options, progress);
   surface.agreement.setTo(0, ~is_inside);
   surface.peak.setTo(0, ~is_inside);
-  surface.radius.setTo(kUnknown, surface.seen_by < kLeastFrames);
+  surface.radius.setTo(kUnknownRange, surface.seen_by < kLeastFrames);
   return surface;
 }
 

@@ -140,7 +140,7 @@ std::string Place(const Finding& finding, const SurfaceSource& source) {
   return place;
 }
 
-std::string Counted(int count, const char* one, const char* many) {
+std::string CountedInWords(int count, const char* one, const char* many) {
   return count == 1 ? fmt::format("one {}", one) : fmt::format("{} {}", count, many);
 }
 
@@ -201,36 +201,40 @@ void RequireMeshable(const SurfaceCheck& check, const SurfaceSource& source) {
                   source.file);
   };
   refuse(check.degenerate,
-         "the surface has " + Counted(check.degenerate.count, "triangle", "triangles") +
+         "the surface has " + CountedInWords(check.degenerate.count, "triangle", "triangles") +
              " without area",
          "remesh the surface there");
   refuse(check.duplicate,
          "the surface has " +
-             Counted(check.duplicate.count, "triangle that is there", "triangles that are there") +
+             CountedInWords(check.duplicate.count, "triangle that is there",
+                            "triangles that are there") +
              " twice",
          "delete the copies");
+  refuse(check.nonmanifold_edges,
+         "more than two triangles meet at " +
+             CountedInWords(check.nonmanifold_edges.count, "edge", "edges"),
+         "separate the sheets or delete the inner one");
   refuse(
-      check.nonmanifold_edges,
-      "more than two triangles meet at " + Counted(check.nonmanifold_edges.count, "edge", "edges"),
-      "separate the sheets or delete the inner one");
-  refuse(check.open_edges,
-         fmt::format("the surface is open: {} without a neighbour",
-                     Counted(check.open_edges.count, "triangle side is", "triangle sides are")),
-         "close it where it was made, small holes with --fill-holes, a sheet with --thickness-mm");
+      check.open_edges,
+      fmt::format("the surface is open: {} without a neighbour",
+                  CountedInWords(check.open_edges.count, "triangle side is", "triangle sides are")),
+      "close it where it was made, small holes with --fill-holes, a sheet with --thickness-mm");
   refuse(check.nonmanifold_vertices,
          "two parts of the surface touch at " +
-             Counted(check.nonmanifold_vertices.count, "single point", "single points"),
+             CountedInWords(check.nonmanifold_vertices.count, "single point", "single points"),
          "move them apart or join them along an edge");
   refuse(check.flipped,
          "the surface has no inside: neighbours face opposite ways at " +
-             Counted(check.flipped.count, "edge", "edges"),
+             CountedInWords(check.flipped.count, "edge", "edges"),
          "it is one-sided like a Möbius strip, make it again");
-  refuse(check.self_intersections,
-         "the surface runs through itself at " +
-             Counted(check.self_intersections.count, "pair of triangles", "pairs of triangles"),
-         "unite or separate the parts where it was made");
+  refuse(
+      check.self_intersections,
+      "the surface runs through itself at " +
+          CountedInWords(check.self_intersections.count, "pair of triangles", "pairs of triangles"),
+      "unite or separate the parts where it was made");
   refuse(check.cavities,
-         Counted(check.cavities.count, "closed part lies", "closed parts lie") + " inside another",
+         CountedInWords(check.cavities.count, "closed part lies", "closed parts lie") +
+             " inside another",
          "delete the inner part");
   if (!(std::abs(check.volume) > 0))
     throw Error(Code::kBadMesh, "the surface encloses no volume", source.file);

@@ -12,13 +12,15 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr std::array<std::array<int, 2>, 6> kEdges = {
+constexpr std::array<std::array<int, 2>, 6> kMiddleEdges = {
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};  // VTK's order of mid nodes
-constexpr std::array<std::array<int, 3>, 4> kFaces = {{{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
+constexpr std::array<std::array<int, 3>, 4> kFaceCorners = {
+    {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
 
 int EdgeBetween(int a, int b) {
   for (int i = 0; i < 6; ++i)
-    if ((kEdges[i][0] == a && kEdges[i][1] == b) || (kEdges[i][0] == b && kEdges[i][1] == a))
+    if ((kMiddleEdges[i][0] == a && kMiddleEdges[i][1] == b) ||
+        (kMiddleEdges[i][0] == b && kMiddleEdges[i][1] == a))
       return i;
   return -1;
 }
@@ -30,7 +32,7 @@ double JacobianAt(const std::array<glm::dvec3, 10>& x, const std::array<double, 
   std::array<glm::dvec3, 4> by{};
   for (int k = 0; k < 4; ++k) by[k] = (4.0 * l[k] - 1.0) * x[k];
   for (int m = 0; m < 6; ++m) {
-    const auto& [a, b] = kEdges[m];
+    const auto& [a, b] = kMiddleEdges[m];
     by[a] += 4.0 * l[b] * x[4 + m];
     by[b] += 4.0 * l[a] * x[4 + m];
   }
@@ -47,7 +49,8 @@ std::array<std::array<double, 4>, 14> SamplePoints() {
     points[10 + k] = {b, b, b, b};
     points[10 + k][k] = a;
   }
-  for (int m = 0; m < 6; ++m) points[4 + m][kEdges[m][0]] = points[4 + m][kEdges[m][1]] = 0.5;
+  for (int m = 0; m < 6; ++m)
+    points[4 + m][kMiddleEdges[m][0]] = points[4 + m][kMiddleEdges[m][1]] = 0.5;
   return points;
 }
 
@@ -95,7 +98,7 @@ TetQuality MeasureTets(const TetMesh& mesh) {
     }
     quality.inverted += !(six_volumes > 0);
     double shortest = std::numeric_limits<double>::infinity(), longest = 0;
-    for (const auto& [a, b] : kEdges) {
+    for (const auto& [a, b] : kMiddleEdges) {
       const double length = glm::distance(x[a], x[b]);
       edges.push_back(length);
       shortest = std::min(shortest, length);
@@ -108,7 +111,7 @@ TetQuality MeasureTets(const TetMesh& mesh) {
     quality.worst_radius_edge = std::max(
         quality.worst_radius_edge, glm::length(centre) / (2.0 * std::abs(six_volumes)) / shortest);
     // The angle at edge ab is that between its two faces, seen along the edge.
-    for (const auto& [a, b] : kEdges) {
+    for (const auto& [a, b] : kMiddleEdges) {
       int c = 0;
       while (c == a || c == b) ++c;
       const int d = 6 - a - b - c;
@@ -139,7 +142,7 @@ std::vector<std::uint8_t> SurfaceNodes(const TetMesh& mesh) {
     for (int k = 0; k < 4; ++k) {
       Face face{{}, i, k};
       for (int c = 0; c < 3; ++c)
-        face.corners[c] = mesh.elements[static_cast<std::size_t>(i) * nodes + kFaces[k][c]];
+        face.corners[c] = mesh.elements[static_cast<std::size_t>(i) * nodes + kFaceCorners[k][c]];
       std::sort(face.corners.begin(), face.corners.end());
       faces.push_back(face);
     }
@@ -151,7 +154,7 @@ std::vector<std::uint8_t> SurfaceNodes(const TetMesh& mesh) {
                         (i + 1 < faces.size() && faces[i].corners == faces[i + 1].corners);
     if (shared) continue;
     const int* node = &mesh.elements[static_cast<std::size_t>(faces[i].element) * nodes];
-    const auto& face = kFaces[faces[i].face];
+    const auto& face = kFaceCorners[faces[i].face];
     for (int c = 0; c < 3; ++c) {
       on_surface[node[face[c]]] = 1;
       if (mesh.order == 2) on_surface[node[4 + EdgeBetween(face[c], face[(c + 1) % 3])]] = 1;

@@ -26,7 +26,7 @@ PixelBounds BoundsOf(const PixelBounds& within, int width, const May& may, const
 }
 
 // Largest smoothing in each row.
-std::vector<float> WidestOfRows(const Plane& deviation, int width, int height) {
+std::vector<float> WidestOfRows(const FloatPlane& deviation, int width, int height) {
   std::vector<float> widest(static_cast<std::size_t>(height));
   ForRowsOnTwoThreads(0, height, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
@@ -75,7 +75,7 @@ int ReachOf(double deviation_px) {
   return std::accumulate(gaps.begin(), gaps.end(), 0);
 }
 
-EvenBlocks EvenBlocksOf(const DepthMap& depth, const Plane& near) {
+EvenBlocks EvenBlocksOf(const DepthMap& depth, const FloatPlane& near) {
   constexpr int kSide = EvenBlocks::kSide;
   const int w = depth.width, h = depth.height;
   EvenBlocks blocks{(w + kSide - 1) / kSide, (h + kSide - 1) / kSide, {}};
@@ -118,7 +118,7 @@ EvenBlocks EvenBlocksOf(const DepthMap& depth, const Plane& near) {
   return blocks;
 }
 
-std::vector<Growth> GrowthsOf(const PixelBounds& wanted, const Plane& deviation,
+std::vector<Growth> GrowthsOf(const PixelBounds& wanted, const FloatPlane& deviation,
                               const EvenBlocks& blocks, int passes, const std::vector<int>& gaps,
                               int width, int height) {
   const std::vector<float> widest = WidestOfRows(deviation, width, height);

@@ -35,12 +35,12 @@ struct EvenBlocks {
   std::vector<int> distance;  // px at least, to what is uneven; 0: holds some
 };
 // `near`: how near each pixel is to a step; empty: there is none.
-EvenBlocks EvenBlocksOf(const DepthMap& depth, const Plane& near);
+EvenBlocks EvenBlocksOf(const DepthMap& depth, const FloatPlane& near);
 
 // Growths that give the pixels of `wanted` the smoothing `deviation`, px: the pixels that still ask
 // for it, and what the next growth reads. Growths that no pixel asks for are left out at the end.
 // `passes`: reach of the smoothing before the first one, px.
-std::vector<Growth> GrowthsOf(const PixelBounds& wanted, const Plane& deviation,
+std::vector<Growth> GrowthsOf(const PixelBounds& wanted, const FloatPlane& deviation,
                               const EvenBlocks& blocks, int passes, const std::vector<int>& gaps,
                               int width, int height);
 

@@ -25,10 +25,10 @@ std::vector<float> BinomialKernel(int passes) {
 }
 
 // Applies the separable filter, row by row. Pixels beyond the border have no mass.
-void Filter(Plane& data, int width, int height, const std::vector<float>& kernel) {
+void Filter(FloatPlane& data, int width, int height, const std::vector<float>& kernel) {
   const int half = static_cast<int>(kernel.size()) / 2;
   const auto w = static_cast<std::size_t>(width);
-  Plane padded(w + 2 * static_cast<std::size_t>(half), 0.0f);
+  FloatPlane padded(w + 2 * static_cast<std::size_t>(half), 0.0f);
   for (int y = 0; y < height; ++y) {
     float* row = data.data() + static_cast<std::size_t>(y) * w;
     std::copy(row, row + w, padded.begin() + half);
@@ -36,7 +36,7 @@ void Filter(Plane& data, int width, int height, const std::vector<float>& kernel
     for (std::size_t k = 0; k < kernel.size(); ++k)
       for (std::size_t x = 0; x < w; ++x) row[x] += kernel[k] * padded[x + k];
   }
-  const Plane across = data;
+  const FloatPlane across = data;
   std::fill(data.begin(), data.end(), 0.0f);
   for (int y = 0; y < height; ++y) {
     float* row = data.data() + static_cast<std::size_t>(y) * w;
@@ -52,7 +52,7 @@ void Filter(Plane& data, int width, int height, const std::vector<float>& kernel
 
 }  // namespace
 
-void FilterBinomial(Plane& data, int width, int height, int passes) {
+void FilterBinomial(FloatPlane& data, int width, int height, int passes) {
   if (passes > 0) Filter(data, width, height, BinomialKernel(passes));
 }
 
@@ -104,7 +104,7 @@ class Across {
   std::size_t Start(int y) const { return static_cast<std::size_t>(y) * stride_ + left_; }
 
   // Into a row of the window's width.
-  void Row(const Plane& data, int y, float* to) {
+  void Row(const FloatPlane& data, int y, float* to) {
     const float* from = data.data() + Start(y) - before_;
     const float* of_row = taps_.right.empty() ? nullptr : taps_.right.data() + Start(y) - before_;
     if (before_ < gap_ || after_ < gap_) {  // at the border
@@ -123,7 +123,7 @@ class Across {
 
   const OuterTaps& taps_;
   std::size_t stride_, left_, gap_, width_, before_, after_;
-  Plane padded_, weights_;
+  FloatPlane padded_, weights_;
 };
 
 // Rows that a window of a plane reads.
@@ -136,7 +136,7 @@ ReadRows RowsReadBy(const PixelBounds& window, int gap, int height) {
 
 // Row `y` of a window from rows that are widened along themselves. `taps`: from row to row; empty:
 // 1/4. Weights of rows beyond the border do not count: their values are 0.
-void WidenDown(Plane& data, int y, int gap, const float* above, const float* own,
+void WidenDown(FloatPlane& data, int y, int gap, const float* above, const float* own,
                const float* below, const OuterTaps& taps, const Across& across, int width) {
   const float* const tap_below = taps.below.empty() ? nullptr : taps.below.data() + across.Start(y);
   const float* const tap_above =
@@ -147,8 +147,8 @@ void WidenDown(Plane& data, int y, int gap, const float* above, const float* own
 
 }  // namespace
 
-void Widen(Plane& data, int width, int height, int gap, const OuterTaps& taps,
-           const PixelBounds& window, Plane& scratch) {
+void Widen(FloatPlane& data, int width, int height, int gap, const OuterTaps& taps,
+           const PixelBounds& window, FloatPlane& scratch) {
   // A row of zeros beyond the border; the rows from a gap above to a gap below this one, widened
   // along themselves.
   const auto w = static_cast<std::size_t>(window.width());
@@ -171,15 +171,15 @@ void Widen(Plane& data, int width, int height, int gap, const OuterTaps& taps,
   }
 }
 
-void WidenOnTwoThreads(Plane& data, int width, int height, int gap, const OuterTaps& taps,
-                       const PixelBounds& window, Plane& scratch) {
+void WidenOnTwoThreads(FloatPlane& data, int width, int height, int gap, const OuterTaps& taps,
+                       const PixelBounds& window, FloatPlane& scratch) {
   if (scratch.size() < data.size()) scratch.resize(data.size());
   const auto [first, last] = RowsReadBy(window, gap, height);
   ForRowsOnTwoThreads(first, last, [&](int begin, int end) {
     Across across(width, gap, taps, window);
     for (int y = begin; y < end; ++y) across.Row(data, y, scratch.data() + across.Start(y));
   });
-  const Plane none(static_cast<std::size_t>(window.width()), 0.0f);
+  const FloatPlane none(static_cast<std::size_t>(window.width()), 0.0f);
   ForRowsOnTwoThreads(
       window.top, window.bottom, [&, first = first, last = last](int begin, int end) {
         const Across across(width, gap, taps, window);
@@ -192,7 +192,7 @@ void WidenOnTwoThreads(Plane& data, int width, int height, int gap, const OuterT
       });
 }
 
-void Dilate(Plane& data, int width, int height, int reach) {
+void Dilate(FloatPlane& data, int width, int height, int reach) {
   const auto w = static_cast<std::size_t>(width), r = static_cast<std::size_t>(reach),
              h = static_cast<std::size_t>(height);
   constexpr float kNothing = std::numeric_limits<float>::infinity();
@@ -205,7 +205,7 @@ void Dilate(Plane& data, int width, int height, int reach) {
     for (std::size_t i = 0; i < count; ++i) into[i] = into[i] < from[i] ? from[i] : into[i];
   };
   ForRowsOnTwoThreads(0, height, [&](int first, int last) {
-    Plane padded(w + 2 * r), spare(w + 2 * r);
+    FloatPlane padded(w + 2 * r), spare(w + 2 * r);
     for (int y = first; y < last; ++y) {
       float* const row = data.data() + static_cast<std::size_t>(y) * w;
       std::fill(padded.begin(), padded.end(), -kNothing);
@@ -221,7 +221,7 @@ void Dilate(Plane& data, int width, int height, int reach) {
   // The same down the columns, with rows beyond the border left out, in strips that fit a cache.
   constexpr std::size_t kStrip = 128;  // px
   ForRowsOnTwoThreads(0, static_cast<int>((w + kStrip - 1) / kStrip), [&](int first, int last) {
-    Plane tall((h + 2 * r) * kStrip);
+    FloatPlane tall((h + 2 * r) * kStrip);
     for (int strip = first; strip < last; ++strip) {
       const std::size_t left = static_cast<std::size_t>(strip) * kStrip,
                         count = std::min(kStrip, w - left);
@@ -245,10 +245,10 @@ void ForRowsOnTwoThreads(int begin, int end, const std::function<void(int, int)>
   rows(begin, half);
 }
 
-void WidenAll(std::span<Plane* const> planes, int width, int height, int gap, const OuterTaps& taps,
-              const PixelBounds& window) {
+void WidenAll(std::span<FloatPlane* const> planes, int width, int height, int gap,
+              const OuterTaps& taps, const PixelBounds& window) {
   const auto every_other = [&](std::size_t first) {
-    Plane scratch;
+    FloatPlane scratch;
     for (std::size_t i = first; i < planes.size(); i += 2)
       Widen(*planes[i], width, height, gap, taps, window, scratch);
   };

@@ -11,36 +11,36 @@
 
 namespace arthro::simulation {
 
-using Plane = std::vector<float>;
+using FloatPlane = std::vector<float>;
 
 // Weights of the outer taps of (1 2 1)/4, for one gap, between each pixel and the one that lies a
 // gap to its right or below it: 1/4, and less to 0 where a step lies between them. Empty where
 // there is no step.
 struct OuterTaps {
-  Plane right, below;
+  FloatPlane right, below;
 };
 
 // Applies `passes` passes of (1 2 1)/4 in both directions, as one binomial kernel.
-void FilterBinomial(Plane& data, int width, int height, int passes);
+void FilterBinomial(FloatPlane& data, int width, int height, int passes);
 
 // Applies (1 2 1)/4 with `gap` pixels between its taps in both directions: adds gap²/2 to the
 // variance, where all taps count. `scratch` may have any size. Only the pixels of `window`
 // are written.
-void Widen(Plane& data, int width, int height, int gap, const OuterTaps& taps,
-           const PixelBounds& window, Plane& scratch);
+void Widen(FloatPlane& data, int width, int height, int gap, const OuterTaps& taps,
+           const PixelBounds& window, FloatPlane& scratch);
 
 // Widens several planes on two threads. Each is widened as a whole by one of them, so that the
 // result does not depend on the threads.
-void WidenAll(std::span<Plane* const> planes, int width, int height, int gap, const OuterTaps& taps,
-              const PixelBounds& window);
+void WidenAll(std::span<FloatPlane* const> planes, int width, int height, int gap,
+              const OuterTaps& taps, const PixelBounds& window);
 
 // Widens one plane on two threads, each for half of its rows: the same bytes.
-void WidenOnTwoThreads(Plane& data, int width, int height, int gap, const OuterTaps& taps,
-                       const PixelBounds& window, Plane& scratch);
+void WidenOnTwoThreads(FloatPlane& data, int width, int height, int gap, const OuterTaps& taps,
+                       const PixelBounds& window, FloatPlane& scratch);
 
 // Replaces each value by the maximum over the square of (2 reach + 1) pixels about it, on two
 // threads.
-void Dilate(Plane& data, int width, int height, int reach);
+void Dilate(FloatPlane& data, int width, int height, int reach);
 
 // Runs `rows(first, last)` on two halves of the rows from `begin` to `end`, on two threads. Each
 // call writes only its own rows, so that the result does not depend on the threads.

@@ -7,7 +7,7 @@
 
 namespace arthro::simulation {
 
-PlaneMoments::PlaneMoments(Plane mass, const Plane& height, int map_width, int map_height,
+PlaneMoments::PlaneMoments(FloatPlane mass, const FloatPlane& height, int map_width, int map_height,
                            const MapFrame& frame)
     : width_(map_width),
       frame_(frame),
@@ -16,7 +16,7 @@ PlaneMoments::PlaneMoments(Plane mass, const Plane& height, int map_width, int m
       m_(std::move(mass)) {
   const auto w = static_cast<std::size_t>(map_width);
   // `term(x, y)`: factor of the mass or of the height at a pixel.
-  const auto fill = [&](Plane& to, const Plane& of, const auto& term) {
+  const auto fill = [&](FloatPlane& to, const FloatPlane& of, const auto& term) {
     to.resize(of.size());
     for (int row = 0; row < map_height; ++row) {
       const float y = static_cast<float>(frame_.top + row) - centre_y_;
@@ -37,7 +37,7 @@ PlaneMoments::PlaneMoments(Plane mass, const Plane& height, int map_width, int m
   fill(hy_, height, [](float, float y) { return y; });
 }
 
-void PlaneMoments::PlanesAt(const Plane& height, int row, int first, int last,
+void PlaneMoments::PlanesAt(const FloatPlane& height, int row, int first, int last,
                             float* heights) const {
   // A pixel is as wide as a variance of 1/12; this also keeps a single row from being singular.
   constexpr float kOfPixel = 1.0f / 12.0f;

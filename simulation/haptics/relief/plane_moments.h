@@ -19,20 +19,20 @@ struct MapFrame {
 class PlaneMoments {
  public:
   // `mass`, and `height` times mass, over a kernel that is one pixel wide.
-  PlaneMoments(Plane mass, const Plane& height, int map_width, int map_height,
+  PlaneMoments(FloatPlane mass, const FloatPlane& height, int map_width, int map_height,
                const MapFrame& frame);
 
-  std::array<Plane*, 8> All() { return {&m_, &x_, &y_, &xx_, &xy_, &yy_, &hx_, &hy_}; }
+  std::array<FloatPlane*, 8> All() { return {&m_, &x_, &y_, &xx_, &xy_, &yy_, &hx_, &hy_}; }
 
   // Heights of the planes at the pixels from `first` to `last` of a row. Of a pixel without mass it
   // is no number. `height`: the sum of height times mass over the same kernel.
-  void PlanesAt(const Plane& height, int row, int first, int last, float* heights) const;
+  void PlanesAt(const FloatPlane& height, int row, int first, int last, float* heights) const;
 
  private:
   int width_;
   MapFrame frame_;
   float centre_x_, centre_y_;
-  Plane m_, x_, y_, xx_, xy_, yy_, hx_, hy_;
+  FloatPlane m_, x_, y_, xx_, xy_, yy_, hx_, hy_;
 };
 
 }  // namespace arthro::simulation

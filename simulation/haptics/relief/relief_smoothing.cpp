@@ -24,8 +24,8 @@ constexpr float kSameSide = 2.0f, kOtherSide = 4.0f;
 
 // `near`: how near each pixel is to a step; empty: there is none. `taps` is empty, or of the growth
 // before.
-void FindTaps(const Plane& near, const Plane& heights, const Plane& sigma, int width, int height,
-              int gap, const PixelBounds& window, OuterTaps& taps) {
+void FindTaps(const FloatPlane& near, const FloatPlane& heights, const FloatPlane& sigma, int width,
+              int height, int gap, const PixelBounds& window, OuterTaps& taps) {
   if (near.empty()) return;
   const auto w = static_cast<std::size_t>(width), g = static_cast<std::size_t>(gap);
   taps.right.resize(near.size());
@@ -56,17 +56,17 @@ PixelBounds AllOf(const DepthMap& map) { return {0, 0, map.width, map.height}; }
 
 // Sums of a normalised convolution.
 struct Sums {
-  Plane value, mass;
+  FloatPlane value, mass;
 };
 
 Sums SumsOf(const DepthMap& depth, int passes) {
-  Sums sums{depth.relief, Plane(depth.relief.size())};
+  Sums sums{depth.relief, FloatPlane(depth.relief.size())};
   ForPixelsOnTwoThreads(depth.relief.size(), [&](std::size_t i) {
     const bool is_imaged = std::isfinite(depth.relief[i]);
     sums.mass[i] = is_imaged ? 1.0f : 0.0f;
     if (!is_imaged) sums.value[i] = 0.0f;
   });
-  for (Plane* plane : {&sums.value, &sums.mass})
+  for (FloatPlane* plane : {&sums.value, &sums.mass})
     FilterBinomial(*plane, depth.width, depth.height, passes);
   return sums;
 }
@@ -76,8 +76,8 @@ void WidenSums(Sums& sums, int width, int height, std::initializer_list<int> gap
     WidenAll(std::array{&sums.value, &sums.mass}, width, height, gap, {}, {0, 0, width, height});
 }
 
-Plane Ratio(const Sums& sums) {
-  Plane ratio(sums.value.size());
+FloatPlane Ratio(const Sums& sums) {
+  FloatPlane ratio(sums.value.size());
   ForPixelsOnTwoThreads(ratio.size(), [&](std::size_t i) {
     ratio[i] = sums.mass[i] > 0.0f ? sums.value[i] / sums.mass[i] : 0.0f;
   });
@@ -86,13 +86,13 @@ Plane Ratio(const Sums& sums) {
 
 // Smooths the variance over about four pixels, so that the force changes gradually where the
 // standard error does. Zero where nothing was imaged. Empty where no error is known.
-Plane SmoothSigma(const DepthMap& depth, const DepthMap& sigma) {
+FloatPlane SmoothSigma(const DepthMap& depth, const DepthMap& sigma) {
   float largest = 0.0f;
   bool is_known = false;
   for (const float s : sigma.relief)
     if (std::isfinite(s)) largest = std::max(largest, s), is_known = true;
   if (!is_known || sigma.relief.size() != depth.relief.size()) return {};
-  Sums sums{Plane(depth.relief.size(), 0.0f), Plane(depth.relief.size(), 0.0f)};
+  Sums sums{FloatPlane(depth.relief.size(), 0.0f), FloatPlane(depth.relief.size(), 0.0f)};
   ForPixelsOnTwoThreads(depth.relief.size(), [&](std::size_t i) {
     if (!std::isfinite(depth.relief[i])) return;
     const float s = std::isfinite(sigma.relief[i]) ? sigma.relief[i] : largest;
@@ -100,7 +100,7 @@ Plane SmoothSigma(const DepthMap& depth, const DepthMap& sigma) {
     sums.mass[i] = 1.0f;
   });
   WidenSums(sums, depth.width, depth.height, {1, 1, 2, 2, 4});
-  Plane smooth = Ratio(sums);
+  FloatPlane smooth = Ratio(sums);
   ForPixelsOnTwoThreads(smooth.size(), [&](std::size_t i) { smooth[i] = std::sqrt(smooth[i]); });
   return smooth;
 }
@@ -120,13 +120,13 @@ double SmoothingOf(float sigma, const NoiseLimits& limits) {
 // Smoothing that each pixel asks for beyond the usual one: its standard deviation, px; and the size
 // of a pixel, m. Zero where no error or no relief is known.
 struct WantedSmoothing {
-  Plane deviation, pixel_size;
+  FloatPlane deviation, pixel_size;
 };
 
-WantedSmoothing SmoothingFor(const DepthMap& depth, const Plane& height, const Plane& sigma,
-                             const Backdrop& backdrop, const NoiseLimits& limits,
-                             const MapFrame& frame) {
-  WantedSmoothing wanted{Plane(height.size(), 0.0f), Plane(height.size(), 0.0f)};
+WantedSmoothing SmoothingFor(const DepthMap& depth, const FloatPlane& height,
+                             const FloatPlane& sigma, const Backdrop& backdrop,
+                             const NoiseLimits& limits, const MapFrame& frame) {
+  WantedSmoothing wanted{FloatPlane(height.size(), 0.0f), FloatPlane(height.size(), 0.0f)};
   ForRowsOnTwoThreads(0, depth.height, [&](int first, int last) {
     for (int y = first; y < last; ++y)
       for (int x = 0; x < depth.width; ++x) {
@@ -143,18 +143,19 @@ WantedSmoothing SmoothingFor(const DepthMap& depth, const Plane& height, const P
 }
 
 // How near each pixel is to a step; empty: there is none.
-Plane NearStepsOf(const DepthMap& depth, const Plane& sigma, const WantedSmoothing& wanted) {
+FloatPlane NearStepsOf(const DepthMap& depth, const FloatPlane& sigma,
+                       const WantedSmoothing& wanted) {
   Sums sums = SumsOf(depth, 0);
   WidenSums(sums, depth.width, depth.height, {1, 1, 2, 2});  // a standard deviation of 2.2 px
-  Plane smooth = Ratio(sums);
+  FloatPlane smooth = Ratio(sums);
   ForPixelsOnTwoThreads(smooth.size(), [&](std::size_t i) {
     if (!std::isfinite(depth.relief[i])) smooth[i] = depth.relief[i];
   });
-  Plane near =
+  FloatPlane near =
       NearSteps(depth.width, depth.height, smooth, sigma, wanted.deviation, wanted.pixel_size);
   if (near.empty()) return near;
   // Fades over some 10 px; pixels beyond the border count as those beside it.
-  Sums fading{std::move(near), Plane(depth.relief.size(), 1.0f)};
+  Sums fading{std::move(near), FloatPlane(depth.relief.size(), 1.0f)};
   WidenSums(fading, depth.width, depth.height, {1, 2, 4, 8});
   return Ratio(fading);
 }
@@ -176,17 +177,18 @@ SmoothedPart SmoothPart(const DepthMap& depth, int passes, const DepthMap& sigma
   const WantedSmoothing smoothing =
       SmoothingFor(depth, touched.height, touched.sigma, backdrop, limits, frame);
   part.widest = *std::max_element(smoothing.deviation.begin(), smoothing.deviation.end());
-  const Plane near = part.widest > 0.0f ? NearStepsOf(depth, touched.sigma, smoothing) : Plane();
+  const FloatPlane near =
+      part.widest > 0.0f ? NearStepsOf(depth, touched.sigma, smoothing) : FloatPlane();
 
   std::vector<int> gaps = GapsOf(static_cast<double>(part.widest));
   while (!gaps.empty() && gaps.back() >= std::max(w, h)) gaps.pop_back();
-  const Plane& deviation = smoothing.deviation;
+  const FloatPlane& deviation = smoothing.deviation;
   const std::vector<Growth> growths =
       GrowthsOf(wanted, deviation, EvenBlocksOf(depth, near), passes, gaps, w, h);
   std::optional<PlaneMoments> moments;
   if (!growths.empty() && !growths.front().uneven.is_empty())
     moments.emplace(std::move(sums.mass), sums.value, w, h, frame);
-  Plane before = touched.height, spare;
+  FloatPlane before = touched.height, spare;
   OuterTaps taps;
   for (const Growth& growth : growths) {
     if (stop != nullptr && stop->load(std::memory_order_relaxed))
@@ -197,7 +199,7 @@ SmoothedPart SmoothPart(const DepthMap& depth, int passes, const DepthMap& sigma
     WidenOnTwoThreads(sums.value, w, h, growth.gap, taps, window, spare);
     if (!uneven.is_empty()) WidenAll(moments->All(), w, h, growth.gap, taps, uneven);
     ForRowsOnTwoThreads(window.top, window.bottom, [&](int first, int last) {
-      Plane planes(static_cast<std::size_t>(window.width()));
+      FloatPlane planes(static_cast<std::size_t>(window.width()));
       for (int y = first; y < last; ++y) {
         const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(w);
         // A kernel whose taps all count has the mass 1 and its centre at the pixel: the plane's

@@ -47,8 +47,8 @@ struct Lines {
 
 // Marks the pixels of the lines that are neither short nor mostly low, and returns the widest
 // smoothing beside them, px; 0 where there is none.
-float KeepLongLines(const Lines& lines, const Plane& smoothing, const StepLimits& limits,
-                    Plane& kept) {
+float KeepLongLines(const Lines& lines, const FloatPlane& smoothing, const StepLimits& limits,
+                    FloatPlane& kept) {
   std::vector<std::uint8_t> is_open(lines.marks.size(), 0);
   ForRowsOnTwoThreads(0, lines.height, [&](int first, int last) {
     for (int y = first; y < last; ++y)
@@ -92,14 +92,14 @@ std::vector<float> NearSteps(int width, int height, const std::vector<float>& sm
                              const std::vector<float>& sigma, const std::vector<float>& smoothing,
                              const std::vector<float>& pixel_size, const StepLimits& limits) {
   // Highest and lowest relief within reach, and the least error: one certain side suffices.
-  Plane high(smooth.size()), low(smooth.size()), error(smooth.size());
+  FloatPlane high(smooth.size()), low(smooth.size()), error(smooth.size());
   ForPixelsOnTwoThreads(smooth.size(), [&](std::size_t i) {
     const bool is_known = std::isfinite(smooth[i]);
     high[i] = is_known ? smooth[i] : -kNothing;
     low[i] = is_known ? -smooth[i] : -kNothing;
     error[i] = is_known ? -sigma[i] : -kNothing;
   });
-  for (Plane* const plane : {&high, &low, &error}) Dilate(*plane, width, height, limits.reach);
+  for (FloatPlane* const plane : {&high, &low, &error}) Dilate(*plane, width, height, limits.reach);
 
   Lines lines{width, height, std::vector<std::uint8_t>(smooth.size(), kOrdinary)};
   ForPixelsOnTwoThreads(smooth.size(), [&](std::size_t i) {
@@ -113,7 +113,7 @@ std::vector<float> NearSteps(int width, int height, const std::vector<float>& sm
         kSteep | (smooth[i] > 0.5f * (high[i] - low[i]) ? kHigh : kOrdinary) |
         (step >= least ? kCertain : kOrdinary));
   });
-  Plane near(smooth.size(), 0.0f);
+  FloatPlane near(smooth.size(), 0.0f);
   const float widest = KeepLongLines(lines, smoothing, limits, near);
   if (!(widest > 0.0f)) return {};
   Dilate(near, width, height, limits.reach + static_cast<int>(std::ceil(2.0f * widest)));

@@ -19,7 +19,7 @@
 namespace arthro {
 namespace {
 
-constexpr const char* kSchema = "arthroscene.lens/1";
+constexpr const char* kLensSchema = "arthroscene.lens/1";
 
 const Choices<LensModel>& Models() {
   static const Choices<LensModel> models{{{LensModel::kEquisolid, "equisolid"},
@@ -62,11 +62,11 @@ int ParametersOf(LensModel model) {
 }
 
 void ReadSchema(JsonObjectReader& reader) {
-  std::string schema = kSchema;
+  std::string schema = kLensSchema;
   reader.Text("schema", schema);
-  if (schema != kSchema)
+  if (schema != kLensSchema)
     reader.Fault("schema", fmt::format("is {}; this program reads \"{}\"",
-                                       nlohmann::json(schema).dump(), kSchema));
+                                       nlohmann::json(schema).dump(), kLensSchema));
 }
 
 // Gives the model as many numbers as it has. Missing ones are zeros for Kannala-Brandt only,
@@ -142,7 +142,7 @@ Lens LensFromJson(const std::string& text, const std::filesystem::path& file) {
     throw Error(Code::kBadData,
                 fmt::format("this is no lens file, since its {}; give a file of `arthroscene lens`",
                             is_lens ? "model is missing"
-                                    : fmt::format("schema is {}, not \"{}\"", schema, kSchema)),
+                                    : fmt::format("schema is {}, not \"{}\"", schema, kLensSchema)),
                 file);
   std::string sentence;
   for (std::size_t i = 0; i < std::min(kMostNamed, faults.size()); ++i)
@@ -158,7 +158,7 @@ Lens ReadLens(const std::filesystem::path& file) {
 
 std::string JsonFromLens(const Lens& lens) {
   nlohmann::ordered_json json;
-  json["schema"] = kSchema;
+  json["schema"] = kLensSchema;
   Lens copy = lens;
   LensInFile fields{copy, {lens.k.begin(), lens.k.begin() + ParametersOf(lens.model)}};
   fields.Visit(FieldWriter(json));
@@ -168,7 +168,7 @@ std::string JsonFromLens(const Lens& lens) {
 std::string LensSchemaText() {
   Lens lens;
   auto json = FileSchema(
-      kSchema, "Arthroscene lens, version 1",
+      kLensSchema, "Arthroscene lens, version 1",
       "The lens of an arthroscope: where a ray falls in the raw picture. px; angles in degrees. "
       "equisolid: r = 2 f sin(theta/2); kannala_brandt: r = f theta (1 + k0 theta^2 + k1 theta^4 + "
       "k2 theta^6 + k3 theta^8); double_sphere: k = [xi, alpha]; pinhole: r = f tan theta. r^2 = "

@@ -17,7 +17,7 @@
 namespace arthro {
 namespace {
 
-constexpr const char* kSchema = "arthroscene.rig/1";
+constexpr const char* kRigSchema = "arthroscene.rig/1";
 constexpr const char *kWooden = "wooden_haptics", *kHydra = "razer_hydra",
                      *kOpenHaptics = "openhaptics";
 
@@ -127,9 +127,9 @@ RigFile ParseRig(const std::string& text, const std::filesystem::path& file) {
   RigFile rig;
   std::string schema;
   reader.Text("schema", schema, JsonObjectReader::kRequired);
-  if (schema != kSchema && !schema.empty())
+  if (schema != kRigSchema && !schema.empty())
     throw Error(Code::kBadData,
-                fmt::format("its schema is \"{}\"; this program reads \"{}\"", schema, kSchema),
+                fmt::format("its schema is \"{}\"; this program reads \"{}\"", schema, kRigSchema),
                 file);
   rig.Visit(FieldReader(reader));
   reader.RefuseOtherKeys(true);
@@ -149,7 +149,7 @@ RigFile ParseRig(const std::string& text, const std::filesystem::path& file) {
 
 std::string RigSchemaText() {
   auto json = FileSchema(
-      kSchema, "Arthroscene rig, version 1",
+      kRigSchema, "Arthroscene rig, version 1",
       "Which device holds the scope and which the instrument, and how each is mounted on its "
       "incision. SI units, device frame. Roles follow serial numbers, as `arthroscene devices` "
       "lists them. This schema cannot express six rules. A hand_to_incision is shorter than its "
@@ -164,7 +164,7 @@ std::string RigSchemaText() {
 
 std::string RigText(const RigFile& rig) {
   nlohmann::ordered_json json;
-  json["schema"] = kSchema;
+  json["schema"] = kRigSchema;
   RigFile copy = rig;
   copy.Visit(FieldWriter(json));
   std::string text = PrettyJson(json);

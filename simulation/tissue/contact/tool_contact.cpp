@@ -31,7 +31,7 @@ constexpr double kWatched = 3e-4;  // m
 constexpr double kLongestWatch = 6e-3;  // m
 
 constexpr int kMaxAdvances = 16;       // per sweep; each goes as far as nothing can be met
-constexpr double kArrived = 1e-5;      // m
+constexpr double kSameDepth = 1e-5;    // m
 constexpr double kLongestGrip = 0.02;  // m, 10 N; a tool further from its hand has slipped off
 constexpr double kSameWay = 0.9;       // cosine; holding normals with a smaller angle count as one
 
@@ -103,7 +103,7 @@ glm::dvec3 SkinContact::Follow(std::span<const Piece> pieces, const glm::dvec3& 
       way -= std::min(0.0, glm::dot(way, normal)) * normal;
     }
   const double length = glm::length(way);
-  if (!(length > kArrived)) return start + way;
+  if (!(length > kSameDepth)) return start + way;
   // A tool inside the tissue is not stopped by skin; it is found from inside.
   for (const Piece& piece : pieces)
     if (IsInside(0.5 * (piece.a + piece.b) + start)) return start + way;
@@ -114,7 +114,7 @@ glm::dvec3 SkinContact::Follow(std::span<const Piece> pieces, const glm::dvec3& 
       gone = length;
       break;
     }
-    if (clear < kArrived) break;
+    if (clear < kSameDepth) break;
     gone = std::min(length, gone + clear);
   }
   // Avoids the wall of the tool's own dent; the solver finds its path from the previous position.

@@ -12,6 +12,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "simulation/core/at.h"
 #include "simulation/core/error.h"
 #include "simulation/tissue/fem/tet_shape.h"
 
@@ -21,8 +22,6 @@ namespace {
 constexpr std::array<int, 4> kLevels{2, 4, 8, 16};
 constexpr std::array<std::array<std::size_t, 2>, 6> kEdges{
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 bool Meet(const Box3& a, const Box3& b) {
   for (int i = 0; i < 3; ++i)

@@ -4,13 +4,12 @@
 #include <numeric>
 #include <utility>
 
+#include "simulation/core/at.h"
 #include "simulation/tissue/cut/cut_mesh.h"
 #include "simulation/tissue/fem/tet_shape.h"
 
 namespace arthro::simulation {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 // Disjoint sets of numbers; the lowest number of a set represents it.
 class Sets {

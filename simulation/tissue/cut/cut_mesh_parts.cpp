@@ -3,15 +3,12 @@
 #include <array>
 #include <cstddef>
 
+#include "simulation/core/at.h"
 #include "simulation/tissue/cut/cut_mesh.h"
 #include "simulation/tissue/fem/tet_shape.h"
 
 namespace arthro::simulation {
-namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 glm::dvec3 MeshCutter::PlaceOf(int e, int point) const {
   const auto nodes = NodesOf(e);

@@ -15,9 +15,6 @@
 namespace arthro::simulation {
 namespace {
 
-// Time step for which the factor is made. It also serves other steps, because most of the stiffness
-// far exceeds inertia.
-constexpr double kUsualStep = 1.0 / 60;  // s
 // Fraction of the mean stiffness below which a node belongs to no tissue any more.
 constexpr double kNoStiffness = 1e-11;
 

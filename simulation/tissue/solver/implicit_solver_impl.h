@@ -17,6 +17,10 @@
 
 namespace arthro::simulation {
 
+// Time step for which the factor is made. It also serves other steps, because most of the stiffness
+// far exceeds inertia.
+inline constexpr double kUsualStep = 1.0 / 60;  // s
+
 // Loads and constraints of a step.
 struct Problem {
   std::span<const glm::dvec3> load;

@@ -20,12 +20,11 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr int kRounds = 8;               // one solve each; cost of a Newton iteration
-constexpr int kLongest = 4000;           // rounds after which inverted elements are accepted
-constexpr int kRoundsOnceClean = 16;     // rounds after the last inverted element
-constexpr double kSettled = 0.1;         // residual of this law at which recovery ends
-constexpr double kTrusted = 0.2;         // fraction of elements that may be inverted
-constexpr double kUsualStep = 1.0 / 60;  // s
+constexpr int kRounds = 8;            // one solve each; cost of a Newton iteration
+constexpr int kLongest = 4000;        // rounds after which inverted elements are accepted
+constexpr int kRoundsOnceClean = 16;  // rounds after the last inverted element
+constexpr double kSettled = 0.1;      // residual of this law at which recovery ends
+constexpr double kTrusted = 0.2;      // fraction of elements that may be inverted
 
 }  // namespace
 

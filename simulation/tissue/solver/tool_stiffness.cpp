@@ -9,7 +9,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr int kMostIterations = 200;
+constexpr int kMostSteps = 200;
 
 }  // namespace
 
@@ -67,7 +67,7 @@ double ImplicitSolver::ToolStiffness(int owner, const glm::dvec3& direction,
   system.springs = body.tool_springs;
   system.holds = body.tool_holds;
   auto& left = body.tool_left[static_cast<std::size_t>(owner) % body.tool_left.size()];
-  SolveByGradients(system, *body.factor, body.tool_right, {tolerance, 0, kMostIterations, true},
+  SolveByGradients(system, *body.factor, body.tool_right, {tolerance, 0, kMostSteps, true},
                    body.tool_vectors, left);
   // rᵀ A⁻¹ r = rᵀ d + dᵀ (r − A d), up to the square of the error of d.
   return hold - hold * hold * glm::dot(direction, give * direction) - Dot(body.tool_right, left) -

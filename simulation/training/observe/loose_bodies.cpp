@@ -13,7 +13,7 @@ namespace {
 
 constexpr glm::dvec3 kDown(0.0, 1.0, 0.0);
 // Share of the way of a sinking body below which it rests.
-constexpr double kRests = 0.02;
+constexpr double kStill = 0.02;
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void LooseBodies::Sink(LooseBody& body, double dt) const noexcept {
   Proxy proxy;
   proxy.position = body.place;
   MoveProxy({relief_, tissues_}, body.radius, body.place + way * kDown, way, false, proxy);
-  body.is_at_rest = glm::distance(proxy.position, body.place) < kRests * way;
+  body.is_at_rest = glm::distance(proxy.position, body.place) < kStill * way;
   if (!body.is_at_rest) body.place = proxy.position;
 }
 

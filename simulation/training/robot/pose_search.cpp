@@ -14,7 +14,7 @@ constexpr double kRollStep = 30.0 * kRadianPerDegree;
 constexpr int kRolls = 12;
 constexpr double kFirstInsertion = 2e-3, kInsertionStep = 3e-3;  // m
 constexpr int kInsertions = 9;
-constexpr double kBeside = 1e-4;   // m, of an eye from its tip
+constexpr double kOffTip = 1e-4;   // m, of an eye from its tip
 constexpr double kSteepest = 1.3;  // rad, of latitude and longitude
 
 // Place of a point in the picture of a scope at `pose`, in radii of the picture.
@@ -101,7 +101,7 @@ bool PoseSearch::IsFree(const RodPose& pose) const {
   if (trial_ == nullptr) return true;
   trial_->Leave();
   trial_->MoveTo(pose, tip);
-  return glm::length(trial_->beside()) < kBeside;
+  return glm::length(trial_->beside()) < kOffTip;
 }
 
 std::optional<ScopeLook> PoseSearch::At(int target, double roll, double insertion) const {

@@ -17,7 +17,7 @@ constexpr double kScopeClear = 2e-3, kInstrumentClear = 2e-3;  // m
 constexpr double kWithdraw = 4e-3, kLift = 8e-3;               // m
 constexpr double kOut = -5e-3;  // m, insertion of a tool that is out of the joint
 // Way from the instrument's portal on which its shaft lies in the tissue that it came through.
-constexpr double kAtPortal = 8e-3;
+constexpr double kJustInside = 8e-3;
 constexpr int kSamples = 16;      // poses of a way that are tested
 constexpr double kSurely = 2e-3;  // m, insertion at which every turn is free
 
@@ -128,7 +128,7 @@ bool RobotHandsMover::Leg(DeviceRole role, const RodPose& to, double speed_share
 bool RobotHandsMover::IsFree(DeviceRole role, const RodPose& pose) const {
   const bool is_scope = role == DeviceRole::kScope;
   RodPose begin = pose;
-  begin.depth = is_scope ? 0.0 : kAtPortal;
+  begin.depth = is_scope ? 0.0 : kJustInside;
   if (pose.depth <= std::max(kSurely, begin.depth)) return true;
   const glm::dvec3 portal = is_scope ? glm::dvec3(0.0) : joint_.instrument_portal();
   return IsWayFree({joint_.relief(), tissues_}, is_scope ? kScopeClear : kInstrumentClear,

@@ -20,20 +20,20 @@ namespace {
 // Points of the skin of regions, which are seen where one of them is.
 constexpr int kSkinPoints = 12;
 
-struct SightLimits {
+struct LookLimits {
   glm::dvec2 distance{0.0, std::numeric_limits<double>::infinity()};
   double incidence = std::numbers::pi;
 };
 
 struct LimitsOfStep {
-  SightLimits operator()(const SeeStep& step) const { return {step.distance, step.incidence}; }
-  SightLimits operator()(const HoldStep& step) const { return {step.distance}; }
-  SightLimits operator()(const PeriscopeStep& step) const { return {step.distance}; }
-  SightLimits operator()(const TelescopeStep& step) const { return {{step.near, step.far}}; }
-  SightLimits operator()(const StepBase&) const { return {}; }
+  LookLimits operator()(const SeeStep& step) const { return {step.distance, step.incidence}; }
+  LookLimits operator()(const HoldStep& step) const { return {step.distance}; }
+  LookLimits operator()(const PeriscopeStep& step) const { return {step.distance}; }
+  LookLimits operator()(const TelescopeStep& step) const { return {{step.near, step.far}}; }
+  LookLimits operator()(const StepBase&) const { return {}; }
 };
 
-bool IsSeen(const PoseSearch& search, int target, const SightLimits& limits) {
+bool IsSeen(const PoseSearch& search, int target, const LookLimits& limits) {
   for (const double insertion : PoseSearch::Insertions())
     for (const double roll : PoseSearch::Rolls()) {
       const auto look = search.At(target, roll, insertion);
@@ -84,7 +84,7 @@ class ExerciseCheck {
       if (place.is_loose) place = TargetInBall(place.point, place.radius);
   }
 
-  bool Sees(int target, double view_angle, const SightLimits& limits) {
+  bool Sees(int target, double view_angle, const LookLimits& limits) {
     const TargetPlace& place = places_[static_cast<std::size_t>(target)];
     if (!place.regions.empty()) {
       const PoseSearch search(loaded_, SkinOf(loaded_, place), view_angle, relief_, eye_);
@@ -119,7 +119,7 @@ std::vector<UnseenTarget> UnseenTargets(const LoadedScene& loaded) {
     ExerciseCheck check(loaded, exercise, relief, eye);
     for (const ExerciseStep& step : exercise.steps) {
       const std::vector<double> angles = AnglesOf(loaded, exercise, step);
-      const SightLimits limits = std::visit(LimitsOfStep{}, step);
+      const LookLimits limits = std::visit(LimitsOfStep{}, step);
       for (const int target : TargetsOf(exercise, step)) {
         const std::string& id = exercise.targets[static_cast<std::size_t>(target)].id;
         const bool is_named = std::ranges::any_of(unseen, [&](const UnseenTarget& each) {

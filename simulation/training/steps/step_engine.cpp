@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "simulation/training/steps/step_rules.h"
 #include "simulation/training/steps/step_words.h"
 
 namespace arthro::simulation {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr int kLongestLoss = 100;  // frames, 1 s, without a device
 constexpr int kQuiet = 10;         // frames, 0.1 s, that end a bite
-constexpr double kClosed = 0.3;    // opening below which jaws have bitten
 constexpr std::size_t kUsualEvents = 256;
 
 }  // namespace
@@ -194,7 +194,7 @@ void StepEngine::CheckZones(const AttemptFrame& frame) {
 
 void StepEngine::CheckTissue(const AttemptFrame& frame) {
   const bool is_closed =
-      frame.instrument == ToolKind::kPunch && static_cast<double>(frame.opening) < kClosed;
+      frame.instrument == ToolKind::kPunch && static_cast<double>(frame.opening) < kJawsClosed;
   const bool closes = is_closed && !is_closed_;
   is_closed_ = is_closed;
   if (closes || frame.taken > 0) {

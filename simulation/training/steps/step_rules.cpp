@@ -15,7 +15,6 @@ constexpr double kAngleApart = RadiansFromDegrees(1);  // a view angle within it
 constexpr int kOffCentre = 20;         // frames, 0.2 s, off the centre that restart a telescope
 constexpr double kTrackCaught = 5e-3;  // m from the goal, within which it departs
 constexpr int kFurthestPiece = 3;      // pieces ahead that a tip may reach next
-constexpr double kClosed = 0.3;        // opening below which jaws hold
 constexpr double kReach = 1.5e-3;      // m from a body's surface within which jaws take it
 constexpr double kRest = 5e-3;         // m/s below which a body rests
 constexpr double kAtRest = 0.5;        // s of rest
@@ -309,7 +308,7 @@ struct Rule {
   StepOutcome operator()(const TransferStep& step) {
     const bool is_holding = Instrument(at).is_inside() &&
                             at.frame.instrument == ToolKind::kGrasper &&
-                            static_cast<double>(at.frame.opening) < kClosed;
+                            static_cast<double>(at.frame.opening) < kJawsClosed;
     const int to = TargetIndex(at.exercise, step.to);
     const auto goal = PlaceOf(at.exercise, at.frame, to);
     const glm::dvec3 tip(Instrument(at).drawn_tip);

@@ -18,6 +18,8 @@
 
 namespace arthro::simulation {
 
+inline constexpr double kJawsClosed = 0.3;  // opening below which jaws hold, and have bitten
+
 // Receives the events of a step.
 class StepEvents {
  public:

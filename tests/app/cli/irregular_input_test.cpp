@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 // Every job with {0} as each of its inputs, and {1} as a folder for what it writes. A scene, its
 // picture, a trace and a lens lie in {1} as well.
-constexpr std::array kJobs = {
+constexpr std::array kReaders = {
     "depth {0} -o {1}/d.tiff",
     "depth {1}/panorama.png --options {0} -o {1}/d.tiff",
     "lens {0} --spacing-mm 1 -o {1}/l.json",
@@ -103,13 +103,13 @@ class IrregularInput : public testing::Test {
 
 TEST_F(IrregularInput, APipeIsRefusedByEveryJob) {
   ASSERT_EQ(::mkfifo(At("pipe").c_str(), 0600), 0);
-  for (const char* job : kJobs)
+  for (const char* job : kReaders)
     ExpectRefused(fmt::format(fmt::runtime(job), At("pipe"), Folder()), "this is a pipe");
 }
 
 TEST_F(IrregularInput, ADeviceWithoutEndIsRefusedByEveryJobThroughALinkToo) {
   fs::create_symlink("/dev/zero", At("zero"));
-  for (const char* job : kJobs)
+  for (const char* job : kReaders)
     ExpectRefused(fmt::format(fmt::runtime(job), At("zero"), Folder()), "this is a device");
 }
 

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using authoring::FrameReport;
 
-constexpr int kFrames = 5, kWidth = 40, kHeight = 30;
+constexpr int kClipFrames = 5, kClipWidth = 40, kClipHeight = 30;
 
 // Frames of one size in a row, 10 px apart; frame 3 is not placed unless it is tied.
 authoring::PanoramaResult MadeUpRun(authoring::PanoramaSession&,
@@ -33,17 +33,17 @@ authoring::PanoramaResult MadeUpRun(authoring::PanoramaSession&,
   authoring::PanoramaResult result;
   authoring::PanoramaReport& report = result.report;
   report.lens.model = LensModel::kPinhole;
-  report.lens.width = kWidth, report.lens.height = kHeight;
+  report.lens.width = kClipWidth, report.lens.height = kClipHeight;
   report.lens.cx = 20, report.lens.cy = 15, report.lens.focal_px = 30;
   report.lens.field_of_view = 1.2;
   report.is_lens_guessed = true;
-  report.rectified = {kWidth, kHeight, 30, 20, 15};
+  report.rectified = {kClipWidth, kClipHeight, 30, 20, 15};
   report.panorama = {80, 30, 30, 40, 15};
   report.summary = "partial";
   report.detector = "direct";
   report.options = "{}";
   report.text_boxes = {{2, 3, 8, 4}};
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kClipFrames; ++i) {
     FrameReport& row = report.frames.emplace_back();
     row.index = i;
     row.source = "frame" + std::to_string(i) + ".png";
@@ -63,8 +63,8 @@ class FootageOfScene : public testing::Test {
  protected:
   void SetUp() override {
     fs::create_directory(temp / "clip");
-    for (int i = 0; i < kFrames; ++i) {
-      ColourImage image(kWidth, kHeight);
+    for (int i = 0; i < kClipFrames; ++i) {
+      ColourImage image(kClipWidth, kClipHeight);
       for (std::uint8_t& value : image.rgb) value = static_cast<std::uint8_t>(40 * i + 20);
       WriteColourImage(temp / "clip" / ("frame" + std::to_string(i) + ".png"), image);
     }
@@ -122,7 +122,7 @@ TEST_F(FootageOfScene, AReopenedSceneHasItsBoardReportAndChoice) {
   ASSERT_TRUE(state.steps.panorama->footage);
   EXPECT_FALSE(ShowsFootage(state)) << "the scene comes first";
   const FootageBoard& board = BoardOf(state);
-  EXPECT_EQ(board.frames(), kFrames);
+  EXPECT_EQ(board.frames(), kClipFrames);
   EXPECT_EQ(board.name, "clip");
   EXPECT_EQ(board.missing, "");
   EXPECT_EQ(board.excluded, (std::set<int>{1}));
@@ -169,8 +169,8 @@ TEST_F(FootageOfScene, AClipThatIsGoneIsOneSentenceAndIsFoundAnew) {
   Settle(state);
   // Another clip is refused; the right one is known by its content.
   fs::create_directory(temp / "other");
-  WriteColourImage(temp / "other/a.png", ColourImage(kWidth, kHeight));
-  WriteColourImage(temp / "other/b.png", ColourImage(kWidth, kHeight));
+  WriteColourImage(temp / "other/a.png", ColourImage(kClipWidth, kClipHeight));
+  WriteColourImage(temp / "other/b.png", ColourImage(kClipWidth, kClipHeight));
   FindFootage(state, temp / "other");
   Settle(state);
   EXPECT_NE(BoardOf(state).missing.find("not the clip"), std::string::npos);
@@ -229,7 +229,7 @@ TEST_F(FootageOfScene, AnotherPictureHasNoRecord) {
   MakeScene();
   EditorState state = MakeEditorState(authoring::OpenDocument(scene()));
   Begin(state);
-  WriteColourImage(temp / "other.png", ColourImage(kWidth, kHeight));
+  WriteColourImage(temp / "other.png", ColourImage(kClipWidth, kClipHeight));
   ImportPanorama(state, temp / "other.png");
   Settle(state);
   EXPECT_FALSE(state.document().footage);

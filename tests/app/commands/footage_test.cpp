@@ -50,7 +50,7 @@ ColourImage Plain(int width, int height, std::uint8_t red) {
   return image;
 }
 
-FrameReport Row(int index, bool is_placed, const std::string& reason, int component) {
+FrameReport RowOf(int index, bool is_placed, const std::string& reason, int component) {
   FrameReport row;
   row.index = index;
   row.is_usable = true;
@@ -67,10 +67,10 @@ PanoramaResult MadeUpRun(PanoramaSession&, const PanoramaRequest& request,
   PanoramaResult result;
   for (int i = 0; i < kFrames; ++i) {
     progress.Step("match", static_cast<double>(i) / kFrames);
-    FrameReport row = Row(i, true, "", 0);
-    if (i == 3) row = Row(i, false, "too few matches", -1);
-    if (i == 5) row = Row(i, false, "it belongs to piece 2", 1);
-    if (request.excluded.contains(i)) row = Row(i, false, "left out by hand", -1);
+    FrameReport row = RowOf(i, true, "", 0);
+    if (i == 3) row = RowOf(i, false, "too few matches", -1);
+    if (i == 5) row = RowOf(i, false, "it belongs to piece 2", 1);
+    if (request.excluded.contains(i)) row = RowOf(i, false, "left out by hand", -1);
     observer.frame(row, {});
     result.report.frames.push_back(row);
   }
@@ -287,7 +287,7 @@ TEST_F(Footage, AFailedRunIsOneSentenceAndWhatWasMadeStays) {
   state.steps.panorama->makers->run = [](PanoramaSession&, const PanoramaRequest&,
                                          const PanoramaObserver& observer,
                                          const Progress&) -> PanoramaResult {
-    observer.frame(Row(0, false, "blank", -1), {});
+    observer.frame(RowOf(0, false, "blank", -1), {});
     throw Error(Code::kBadImage, "nothing overlaps; move slowly", "clip");
   };
   SetFrameIncluded(state, 0, false);
@@ -308,7 +308,7 @@ TEST_F(Footage, StopEndsTheRunAndKeepsWhatWasMade) {
   state.steps.panorama->makers->run = [](PanoramaSession&, const PanoramaRequest&,
                                          const PanoramaObserver& observer,
                                          const Progress& progress) -> PanoramaResult {
-    observer.frame(Row(0, false, "blank", -1), {});
+    observer.frame(RowOf(0, false, "blank", -1), {});
     for (;;) {
       progress.Step("match", 0.5);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -11,12 +11,11 @@
 #include "app/state/command.h"
 #include "app/state/edits.h"
 #include "app/steps/tissue/tissue_step.h"
+#include "simulation/core/units.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::app {
 namespace {
-
-constexpr double kMm = 1e-3;
 
 // A sphere of 50 mm without relief, and a block in front of it.
 class HandPlacingTest : public testing::Test {

@@ -14,13 +14,12 @@
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/alignment/place_by_hand.h"
 #include "authoring/project/document_io.h"
+#include "simulation/core/units.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::app {
 namespace {
-
-constexpr double kMm = 1e-3;
 
 // A sphere of 50 mm with a relief of 10 mm everywhere.
 class ImportFramesTest : public testing::Test {

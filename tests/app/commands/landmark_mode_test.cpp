@@ -13,13 +13,12 @@
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/alignment/placing_notes.h"
 #include "authoring/project/document_io.h"
+#include "simulation/core/units.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::app {
 namespace {
-
-constexpr double kMm = 1e-3;
 
 // A sphere of 50 mm without relief, and a block in front of the scope.
 class Landmarks : public testing::Test {

@@ -29,14 +29,14 @@ using authoring::ReliefObserver;
 using authoring::ReliefRequest;
 using authoring::ReliefResult;
 
-constexpr int kFrames = 4, kScale = 2;
+constexpr int kRunFrames = 4, kScale = 2;
 
 // A relief of 10 x 8 cells under a picture of twice the size; frame 2 has no pose.
 ReliefResult MadeUpRelief(const ReliefRequest& request, const Progress& progress,
                           const ReliefObserver& observer) {
   ReliefResult result;
-  for (int i = 0; i < kFrames; ++i) {
-    progress.Step("finding poses", static_cast<double>(i) / kFrames);
+  for (int i = 0; i < kRunFrames; ++i) {
+    progress.Step("finding poses", static_cast<double>(i) / kRunFrames);
     authoring::PosedFrame frame;
     frame.index = i;
     frame.is_posed = i != 2 && !request.excluded.contains(i);
@@ -80,7 +80,7 @@ authoring::PanoramaResult MadeUpPanorama(authoring::PanoramaSession&,
                                          const authoring::PanoramaRequest&,
                                          const authoring::PanoramaObserver&, const Progress&) {
   authoring::PanoramaResult result;
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kRunFrames; ++i) {
     authoring::FrameReport row;
     row.index = i;
     row.is_usable = row.is_placed = true;
@@ -96,7 +96,7 @@ class ReliefRun : public testing::Test {
   void SetUp() override {
     fs::create_directory(clip);
     ColourImage frame(40, 30);
-    for (int i = 0; i < kFrames; ++i)
+    for (int i = 0; i < kRunFrames; ++i)
       WriteColourImage(clip / ("frame" + std::to_string(i) + ".png"), frame);
     state.steps.panorama->makers->run = MadeUpPanorama;
     Measure(MadeUpRelief);

@@ -12,12 +12,11 @@
 #include "app/state/command.h"
 #include "app/state/edits.h"
 #include "app/steps/tissue/cut/cut_skins.h"
+#include "simulation/core/units.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::app {
 namespace {
-
-constexpr double kMm = 1e-3;
 
 // A block of 12 × 8 × 4 mm, its top at z = 0, laid in at `scale` times that.
 class TissueCut : public testing::Test {

@@ -18,8 +18,8 @@ extern "C" {
 namespace arthro::app {
 namespace {
 
-constexpr VideoSize kSize = {64, 48};
-constexpr double kRate = 10;
+constexpr VideoSize kTagSize = {64, 48};
+constexpr double kTagRate = 10;
 
 struct FilmTags {
   AVColorRange range{};
@@ -63,8 +63,8 @@ FilmTags ReadTags(const std::filesystem::path& file) {
 
 FilmTags TagsOf(const char* name, const std::array<std::uint8_t, 3>& colour, int count) {
   const test::TempFolder folder;
-  VideoFile film(folder / name, kSize, kRate);
-  ColourImage picture(kSize.width, kSize.height);
+  VideoFile film(folder / name, kTagSize, kTagRate);
+  ColourImage picture(kTagSize.width, kTagSize.height);
   for (std::size_t i = 0; i < picture.rgb.size(); ++i) picture.rgb[i] = colour[i % 3];
   for (int i = 0; i < count; ++i) film.Add(picture);
   film.Finish();

@@ -18,10 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int FilesIn(const fs::path& folder) {
-  return static_cast<int>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
-
 std::string RefusalOf(const fs::path& target) {
   try {
     CheckFilm(target, {});
@@ -60,7 +56,7 @@ TEST(PictureSequence, PicturesAreTheOnesThatWereGivenAndTheMarkGoesWhenAllAreThe
   EXPECT_EQ(sequence.count(), 4);
   sequence.Finish();
   EXPECT_FALSE(fs::exists(mark));
-  EXPECT_EQ(FilesIn(folder / "new"), 4);
+  EXPECT_EQ(test::FileCount(folder / "new"), 4);
   for (const int i : {0, 1, 3})
     EXPECT_EQ(ReadColourImage(folder / "new" / ("frame-0" + std::to_string(i) + ".png")).rgb,
               knee.rgb);
@@ -84,9 +80,9 @@ TEST(PictureSequence, AFolderWithSomethingInItIsRefusedAndKept) {
             std::string::npos);
   EXPECT_NE(RefusalOf(folder / "frame.png").find("frame-%04d.png"), std::string::npos);
   EXPECT_EQ(RefusalOf(folder / "new/"), "");
-  EXPECT_EQ(FilesIn(folder.path()), 1) << "looking made nothing";
+  EXPECT_EQ(test::FileCount(folder.path()), 1) << "looking made nothing";
   EXPECT_THROW(PictureSequence(*PictureNamesOf(folder.path())), Error);
-  EXPECT_EQ(FilesIn(folder.path()), 1);
+  EXPECT_EQ(test::FileCount(folder.path()), 1);
 }
 
 // Timing of a live film: a picture stands until the time of the next one.
@@ -99,7 +95,7 @@ TEST(LivePictures, AreAsManyAsAFilmsFramesAndExact) {
     film.Offer(0.13, ColourImage(48, 48));  // frame 3
     film.End(0.2);
   }
-  EXPECT_EQ(FilesIn(folder / "new"), 5);
+  EXPECT_EQ(test::FileCount(folder / "new"), 5);
   for (int i = 0; i < 5; ++i)
     EXPECT_EQ(ReadColourImage(folder / "new" / ("frame_0000" + std::to_string(i) + ".png")).rgb,
               i < 3 ? test::KneePicture(48, 48).rgb : ColourImage(48, 48).rgb)

@@ -29,13 +29,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr VideoSize kSize = {160, 120};
-constexpr double kRate = 30.0;
+constexpr VideoSize kFilmSize = {160, 120};
+constexpr double kFilmRate = 30.0;
 constexpr int kPerSecond = 30;
 
 // The knee with a bar that moves on.
-ColourImage Frame(int index) {
-  static const ColourImage knee = test::KneePicture(kSize.width, kSize.height);
+ColourImage FilmFrame(int index) {
+  static const ColourImage knee = test::KneePicture(kFilmSize.width, kFilmSize.height);
   ColourImage picture = knee;
   const int bar = index % 26;
   for (int y = 20; y < 100; ++y)
@@ -70,9 +70,9 @@ int DieWhileRecording(const fs::path& file, int signal, int pictures, int micros
     for (const int own : {SIGSEGV, SIGQUIT, SIGPIPE, SIGXFSZ, SIGABRT, SIGTERM})
       std::signal(own, SIG_DFL);
     try {
-      VideoFile film(file, kSize, kRate);
+      VideoFile film(file, kFilmSize, kFilmRate);
       for (int i = 0;; ++i) {
-        film.Add(Frame(i));
+        film.Add(FilmFrame(i));
         *given = i + 1;
       }
     } catch (...) {
@@ -89,7 +89,7 @@ int DieWhileRecording(const fs::path& file, int signal, int pictures, int micros
   return *given;
 }
 
-std::vector<fs::path> FilesIn(const fs::path& folder) {
+std::vector<fs::path> FilesOf(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
   std::ranges::sort(files);
@@ -100,10 +100,10 @@ std::vector<fs::path> FilesIn(const fs::path& folder) {
 // off.
 void ExpectBeginsWithFrames(const fs::path& file, int at_least, std::size_t torn = 0) {
   const auto [info, frames] = test::ReadFilm(file);
-  EXPECT_NEAR(info.frames_per_second, kRate, 1e-3);
+  EXPECT_NEAR(info.frames_per_second, kFilmRate, 1e-3);
   EXPECT_GE(static_cast<int>(frames.size()), at_least) << file;
   for (std::size_t i = 0; i + torn < frames.size(); ++i)
-    EXPECT_GT(test::LumaPsnr(frames[i], Frame(static_cast<int>(i))), 33.0) << file << " " << i;
+    EXPECT_GT(test::LumaPsnr(frames[i], FilmFrame(static_cast<int>(i))), 33.0) << file << " " << i;
 }
 
 class UnfinishedFilms : public testing::TestWithParam<const char*> {};
@@ -115,7 +115,7 @@ TEST_P(UnfinishedFilms, AreWholeToTheLastSecondWhateverEndedTheProgram) {
     const auto file = folder / (std::string("a film.of me") + GetParam());
     const int given = DieWhileRecording(file, signal, kPerSecond + static_cast<int>(random() % 40),
                                         static_cast<int>(random() % 5000));
-    const std::vector<fs::path> left = FilesIn(folder.path());
+    const std::vector<fs::path> left = FilesOf(folder.path());
     ASSERT_EQ(left.size(), 1u) << signal;
     EXPECT_NE(left[0].filename().string().find(".recording."), std::string::npos) << left[0];
     // The file stays as it is, for whoever finds it first. A kill may cut a write between two
@@ -126,7 +126,7 @@ TEST_P(UnfinishedFilms, AreWholeToTheLastSecondWhateverEndedTheProgram) {
     ASSERT_EQ(said.size(), 1u);
     EXPECT_NE(said[0].find(file.string() + ": the program ended while"), std::string::npos)
         << said[0];
-    EXPECT_EQ(FilesIn(folder.path()), std::vector<fs::path>{file});
+    EXPECT_EQ(FilesOf(folder.path()), std::vector<fs::path>{file});
     EXPECT_EQ(static_cast<int>(fs::status(file).permissions()), 0600);
     EXPECT_GE(test::ReadFilm(file).info.frames, given - kPerSecond);
     ExpectBeginsWithFrames(file, given - kPerSecond);
@@ -145,7 +145,7 @@ TEST_P(UnfinishedFilms, OfADeadProgramAreFinishedUnderAFreeName) {
   EXPECT_EQ(ReadWholeFile(file), "an older film");
   for (const char* name : {"film-recovered", "film-recovered-2"})
     ExpectBeginsWithFrames(folder / (std::string(name) + GetParam()), kPerSecond / 2);
-  EXPECT_EQ(FilesIn(folder.path()).size(), 3u);
+  EXPECT_EQ(FilesOf(folder.path()).size(), 3u);
 }
 
 // A torn end of any length, as a machine that loses its power may leave.
@@ -153,9 +153,9 @@ TEST_P(UnfinishedFilms, CutAnywhereKeepTheirWholePictures) {
   const test::TempFolder folder;
   const auto file = folder / (std::string("film") + GetParam());
   DieWhileRecording(file, SIGKILL, kPerSecond, 0);
-  const std::string whole = ReadWholeFile(FilesIn(folder.path())[0]);
+  const std::string whole = ReadWholeFile(FilesOf(folder.path())[0]);
   const auto left = folder / (std::string(".film.999999999.recording") + GetParam());
-  fs::remove(FilesIn(folder.path())[0]);
+  fs::remove(FilesOf(folder.path())[0]);
   std::mt19937 random(3);
   for (int i = 0; i < 40; ++i) {
     std::ofstream(left, std::ios::binary) << whole.substr(0, random() % whole.size());
@@ -169,7 +169,7 @@ TEST_P(UnfinishedFilms, CutAnywhereKeepTheirWholePictures) {
     ExpectBeginsWithFrames(file, 1);
     fs::remove(file);
   }
-  EXPECT_TRUE(FilesIn(folder.path()).empty());
+  EXPECT_TRUE(FilesOf(folder.path()).empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Endings, UnfinishedFilms, testing::Values(".mp4", ".mkv", ".avi"),
@@ -177,12 +177,13 @@ INSTANTIATE_TEST_SUITE_P(Endings, UnfinishedFilms, testing::Values(".mp4", ".mkv
 
 TEST(UnfinishedFilm, OneThatIsRecordedIsLeftAlone) {
   const test::TempFolder folder;
-  VideoFile film(folder / "film.mp4", kSize, kRate);
-  for (int i = 0; i < kPerSecond; ++i) film.Add(Frame(i));
+  VideoFile film(folder / "film.mp4", kFilmSize, kFilmRate);
+  for (int i = 0; i < kPerSecond; ++i) film.Add(FilmFrame(i));
   EXPECT_TRUE(FinishFilmsIn(folder.path()).empty());
-  EXPECT_THROW(VideoFile(folder / "film.mp4", kSize, kRate), Error) << "recorded there already";
+  EXPECT_THROW(VideoFile(folder / "film.mp4", kFilmSize, kFilmRate), Error)
+      << "recorded there already";
   film.Finish();
-  EXPECT_EQ(FilesIn(folder.path()), std::vector<fs::path>{folder / "film.mp4"});
+  EXPECT_EQ(FilesOf(folder.path()), std::vector<fs::path>{folder / "film.mp4"});
 }
 
 // --overwrite does not mean a film that was saved a moment ago.
@@ -190,7 +191,7 @@ TEST(UnfinishedFilm, OneThatIsAboutToBeRecordedAgainDoesNotTakeItsName) {
   const test::TempFolder folder;
   DieWhileRecording(folder / "film.mkv", SIGKILL, kPerSecond, 0);
   EXPECT_EQ(FinishFilmsIn(folder.path(), folder / "." / "film.mkv").size(), 1u);
-  EXPECT_EQ(FilesIn(folder.path()), std::vector<fs::path>{folder / "film-recovered.mkv"});
+  EXPECT_EQ(FilesOf(folder.path()), std::vector<fs::path>{folder / "film-recovered.mkv"});
 }
 
 TEST(UnfinishedFilm, FilesOfOthersAreLeftAlone) {
@@ -204,14 +205,14 @@ TEST(UnfinishedFilm, FilesOfOthersAreLeftAlone) {
   fs::create_symlink(folder / "large", folder / ".link.999999999.recording.mp4");
   ASSERT_EQ(::mkfifo((folder / ".pipe.999999999.recording.mp4").c_str(), 0600), 0);
   fs::create_directory(folder / ".folder.999999999.recording.mp4");
-  const auto before = FilesIn(folder.path());
+  const auto before = FilesOf(folder.path());
   EXPECT_TRUE(FinishFilmsIn(folder.path()).empty());
-  EXPECT_EQ(FilesIn(folder.path()), before);
+  EXPECT_EQ(FilesOf(folder.path()), before);
   fs::copy(folder / "large", folder / ".large.999999999.recording.mp4");
   const auto said = FinishFilmsIn(folder.path());
   ASSERT_EQ(said.size(), 1u);
   EXPECT_NE(said[0].find("cannot be read as a film"), std::string::npos);
-  EXPECT_EQ(FilesIn(folder.path()).size(), before.size() + 1);
+  EXPECT_EQ(FilesOf(folder.path()).size(), before.size() + 1);
   EXPECT_TRUE(FinishFilmsIn(folder / "no such folder").empty());
 }
 
@@ -220,7 +221,7 @@ TEST(UnfinishedFilm, FoldersAreRememberedWhileSomethingIsRecordedThere) {
   ASSERT_EQ(::setenv("XDG_STATE_HOME", state.path().c_str(), 1), 0);
   EXPECT_TRUE(FinishFilmsEverywhere().empty());
   {
-    VideoFile film(folder / "film.mp4", kSize, kRate);
+    VideoFile film(folder / "film.mp4", kFilmSize, kFilmRate);
     NoteRecordingFolder(folder.path());
     NoteRecordingFolder(home.path());
     EXPECT_TRUE(FinishFilmsEverywhere().empty());
@@ -239,8 +240,8 @@ TEST(UnfinishedFilm, FoldersAreRememberedWhileSomethingIsRecordedThere) {
 TEST(UnfinishedFilm, NumberedPicturesArePrivateToo) {
   const test::TempFolder folder;
   PictureSequence sequence(*PictureNamesOf((folder / "new/").string()));
-  sequence.Add(Frame(0));
-  for (const fs::path& file : FilesIn(folder / "new"))
+  sequence.Add(FilmFrame(0));
+  for (const fs::path& file : FilesOf(folder / "new"))
     EXPECT_EQ(static_cast<int>(fs::status(file).permissions()), 0600) << file;
 }
 

@@ -29,12 +29,6 @@ ColourImage Frame(int index) {
   return picture;
 }
 
-int FilesIn(const std::filesystem::path& folder) {
-  int count = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++count;
-  return count;
-}
-
 std::string SentenceOf(const std::function<void()>& action) {
   try {
     action();
@@ -56,7 +50,7 @@ TEST_P(Films, AreReadBackWithTheirFramesInOrder) {
   for (int i = 0; i < kCount; ++i) film.Add(Frame(i));
   EXPECT_EQ(film.count(), kCount);
   film.Finish();
-  EXPECT_EQ(FilesIn(folder.path()), 1);
+  EXPECT_EQ(test::FileCount(folder.path()), 1);
 
   const auto [info, frames] = test::ReadFilm(file);
   EXPECT_EQ(info.width, kSize.width);
@@ -154,7 +148,7 @@ TEST_P(Films, ADiskThatFillsUpIsToldAndLeavesTheOldFilm) {
     EXPECT_TRUE(ReadWholeFile(file) == "an older film") << room;
     const auto kept = folder / (std::string("film-recovered") + GetParam());
     const bool is_kept = std::filesystem::exists(kept);
-    EXPECT_EQ(FilesIn(folder.path()), is_kept ? 2 : 1) << room;
+    EXPECT_EQ(test::FileCount(folder.path()), is_kept ? 2 : 1) << room;
     if (!is_kept) continue;
     EXPECT_NE(said.find("its first 0.4 s are in " + kept.string()), std::string::npos) << said;
     EXPECT_EQ(test::ReadFilm(kept).frames.size(), 12u) << room;
@@ -182,7 +176,7 @@ TEST_P(Films, ThatADiskCutsShortKeepWhatWasWhole) {
   EXPECT_NE(said.find("this film was not written to its end"), std::string::npos) << said;
   EXPECT_NE(said.find("no more may be written here"), std::string::npos) << said;
   EXPECT_NE(said.find("s are in " + file.string()), std::string::npos) << said;
-  EXPECT_EQ(FilesIn(folder.path()), 1);
+  EXPECT_EQ(test::FileCount(folder.path()), 1);
   const auto frames = test::ReadFilm(file).frames;
   // Half a second is 10 pictures.
   EXPECT_GE(static_cast<int>(frames.size()), count - 10);
@@ -210,7 +204,7 @@ TEST(VideoFile, WhatCannotBeAFilmIsRefusedInASentence) {
   EXPECT_NE(film("no/film.mp4", kSize, 30).find("does not exist"), std::string::npos);
   std::filesystem::create_directory(folder / "here.mp4");
   EXPECT_NE(film("here.mp4", kSize, 30).find("this is a folder"), std::string::npos);
-  EXPECT_EQ(FilesIn(folder.path()), 1);
+  EXPECT_EQ(test::FileCount(folder.path()), 1);
 }
 
 TEST(VideoFile, WhatIsNotFinishedLeavesNothing) {
@@ -221,7 +215,7 @@ TEST(VideoFile, WhatIsNotFinishedLeavesNothing) {
     EXPECT_NE(SentenceOf([&] { film.Add(ColourImage(2, 2)); }).find("give all one size"),
               std::string::npos);
   }
-  EXPECT_EQ(FilesIn(folder.path()), 0);
+  EXPECT_EQ(test::FileCount(folder.path()), 0);
   VideoFile empty(folder / "film.mp4", kSize, 30.0);
   EXPECT_NE(SentenceOf([&] { empty.Finish(); }).find("no picture"), std::string::npos);
 }

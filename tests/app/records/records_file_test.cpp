@@ -15,7 +15,7 @@ namespace {
 
 using namespace test;
 
-RecordsBundle Sample() {
+RecordsBundle SampleFile() {
   TempFolder folder;
   Records records((folder / "r.sqlite").string(), RepeatedOptions());
   AddTrainee(records, NewTrainee("T-1", "2026"));
@@ -26,7 +26,7 @@ RecordsBundle Sample() {
 }
 
 TEST(RecordsFile, IsReadAsItWasWritten) {
-  const std::string text = RecordsText(Sample());
+  const std::string text = RecordsText(SampleFile());
   EXPECT_EQ(RecordsText(RecordsFromText(text)), text);
   EXPECT_EQ(SchemaFault("records-1", text), "");
 }
@@ -39,7 +39,7 @@ TEST(RecordsFile, SchemaIsUpToDate) {
 }
 
 TEST(RecordsFile, ImportBringsEachAttemptOnce) {
-  const RecordsBundle bundle = Sample();
+  const RecordsBundle bundle = SampleFile();
   TempFolder folder;
   Records other((folder / "other.sqlite").string(), RepeatedOptions(9));
   AddTrainee(other, NewTrainee("T-1"));  // the same trainee under another id
@@ -50,7 +50,7 @@ TEST(RecordsFile, ImportBringsEachAttemptOnce) {
 }
 
 TEST(RecordsFile, DamageIsRefusedInOneSentence) {
-  const std::string text = RecordsText(Sample());
+  const std::string text = RecordsText(SampleFile());
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string other = text;
     return other.replace(other.find(from), from.size(), to);

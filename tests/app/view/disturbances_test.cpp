@@ -21,8 +21,6 @@ using app::Disturbances;
 using app::Picture;
 using app::PictureFromPose;
 
-constexpr int kSize = kDisturbedSize;
-
 double Light(std::uint8_t byte) { return std::pow(byte / 255.0, 2.2); }
 
 // Every strength alone.
@@ -197,9 +195,10 @@ TEST_F(DisturbedView, OnlyDefocusedPartsSpread) {
     const ColourImage clear = Draw({}), blurred = Draw(blur);
     const std::vector<float> distances = view_->ReadDistances();
     int reached = 0;
-    for (int y = 0; y < kSize; ++y)
-      if (distances[std::size_t(y) * kSize + kSize / 2] > 0.02f)
-        reached += blurred.at(kSize / 2, y)[1] + 6 < clear.at(kSize / 2, y)[1] ? 1 : 0;
+    for (int y = 0; y < kDisturbedSize; ++y)
+      if (distances[std::size_t(y) * kDisturbedSize + kDisturbedSize / 2] > 0.02f)
+        reached +=
+            blurred.at(kDisturbedSize / 2, y)[1] + 6 < clear.at(kDisturbedSize / 2, y)[1] ? 1 : 0;
     return reached;
   };
   Disturbances far, near;
@@ -239,8 +238,8 @@ TEST_F(DisturbedView, FogGrowsFromTheRimAndReducesContrast) {
   // Mean difference between a pixel and its third neighbour.
   const auto detail = [&](const ColourImage& picture, double inner, double outer) {
     double sum = 0, count = 0;
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x + 3 < kSize; ++x) {
+    for (int y = 0; y < kDisturbedSize; ++y)
+      for (int x = 0; x + 3 < kDisturbedSize; ++x) {
         const double r = std::hypot(x - 126.0, y - 127.5) / 128;
         if (r < inner || r > outer) continue;
         sum += std::abs(double(picture.at(x, y)[1]) - double(picture.at(x + 3, y)[1]));
@@ -270,7 +269,7 @@ TEST_F(DisturbedView, FogGrowsFromTheRimAndReducesContrast) {
 double DiscArea(const std::vector<app::DriftingBit>& bits, double margin) {
   double area = 0;
   for (const auto& bit : bits) {
-    const double r = 0.5 * kSize * bit.radius * (1.0 + margin * bit.softness) + margin;
+    const double r = 0.5 * kDisturbedSize * bit.radius * (1.0 + margin * bit.softness) + margin;
     area += std::numbers::pi * r * r;
   }
   return area;
@@ -321,10 +320,11 @@ TEST_F(DisturbedView, DebrisBehindTheProbeIsHidden) {
     const auto is_over = [&](const glm::dvec2& at, const app::DriftingBit& flake) {
       return glm::distance(at, flake.centre) < flake.radius * 1.5 * (1.0 + flake.softness);
     };
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x) {
-        const float distance = distances[std::size_t(y) * kSize + x];
-        const glm::dvec2 at((x + 0.5) / (0.5 * kSize) - 1.0, 1.0 - (y + 0.5) / (0.5 * kSize));
+    for (int y = 0; y < kDisturbedSize; ++y)
+      for (int x = 0; x < kDisturbedSize; ++x) {
+        const float distance = distances[std::size_t(y) * kDisturbedSize + x];
+        const glm::dvec2 at((x + 0.5) / (0.5 * kDisturbedSize) - 1.0,
+                            1.0 - (y + 0.5) / (0.5 * kDisturbedSize));
         if (distance <= 0.0f || distance > 0.03f ||
             std::ranges::any_of(flakes, [&](const auto& flake) {
               return flake.distance < distance && is_over(at, flake);

@@ -13,8 +13,6 @@ namespace {
 
 using app::Disturbances;
 
-constexpr int kSize = kDisturbedSize;
-
 constexpr double kLastFleck = 8e-3;                // m; farther flecks are in focus
 constexpr double kSofterFleck = kLastFleck / 2.2;  // m; nearer flecks are softer than others
 constexpr double kLeastSoftness = 0.6;             // least of a fleck
@@ -55,10 +53,10 @@ TEST_F(DisturbedView, FlecksChangeThePictureOnlyWhereTheyAre) {
     });
   });
   std::printf("%d flecks change %.2f %% of the pixels\n", int(flecks.size()),
-              100.0 * changed / (kSize * kSize));
+              100.0 * changed / (kDisturbedSize * kDisturbedSize));
   EXPECT_EQ(elsewhere, 0);
   EXPECT_GT(changed, 10);
-  EXPECT_LT(changed, 0.03 * kSize * kSize);
+  EXPECT_LT(changed, 0.03 * kDisturbedSize * kDisturbedSize);
   EXPECT_EQ(view_->ReadDistances(), distances);
 }
 

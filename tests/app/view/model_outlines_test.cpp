@@ -18,7 +18,7 @@ namespace {
 
 using namespace app;
 
-constexpr int kSize = 256;  // px
+constexpr int kOutlineSize = 256;  // px
 
 struct Agreement {
   int wrong = 0,
@@ -39,22 +39,23 @@ Agreement Compare(app::ArthroscopicView& view, const LoadedScene& loaded, const 
                   const Picture& picture, const Lens* lens) {
   Tissue tissue;
   view.SetTissues(std::span(&tissue, 1), std::vector{Share(model)});
-  view.Render(picture, kSize);
+  view.Render(picture, kOutlineSize);
   const std::vector<float> drawn = view.ReadDistances();
   const Backdrop& backdrop = loaded.scene.backdrop;
   const ReferenceMesh reference{&model};
   const TracedPicture traced =
-      TraceWindow(backdrop, *loaded.panorama, picture.view, picture.field_of_view, kSize,
+      TraceWindow(backdrop, *loaded.panorama, picture.view, picture.field_of_view, kOutlineSize,
                   std::span(&reference, 1), nullptr, lens);
   const auto is_model = [&](int x, int y) {
-    return traced.what[static_cast<std::size_t>(y) * kSize + x] == 1;
+    return traced.what[static_cast<std::size_t>(y) * kOutlineSize + x] == 1;
   };
   Agreement result;
-  for (int y = 4; y < kSize - 4; ++y)
-    for (int x = 4; x < kSize - 4; ++x) {
+  for (int y = 4; y < kOutlineSize - 4; ++y)
+    for (int x = 4; x < kOutlineSize - 4; ++x) {
       if (std::hypot(x - 127.5, y - 127.5) > 116) continue;
-      const std::size_t i = static_cast<std::size_t>(y) * kSize + x;
-      const auto ray = ReferenceRay(picture.view, picture.field_of_view, kSize, {x, y}, lens);
+      const std::size_t i = static_cast<std::size_t>(y) * kOutlineSize + x;
+      const auto ray =
+          ReferenceRay(picture.view, picture.field_of_view, kOutlineSize, {x, y}, lens);
       const double sphere = glm::distance(
           *ReferenceSphereHit(picture.view.tip, *ray, backdrop.radius), picture.view.tip);
       const bool drawn_model = drawn[i] < sphere - 20e-6;

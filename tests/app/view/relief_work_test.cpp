@@ -15,11 +15,11 @@ namespace {
 
 using namespace app;
 
-constexpr float kError = 4e-4f;  // m
+constexpr float kNoise = 4e-4f;  // m
 
 DepthMap NoisyDepth(int width, int height) {
   std::mt19937 random(3);
-  std::normal_distribution<float> noise(0.0f, kError);
+  std::normal_distribution<float> noise(0.0f, kNoise);
   DepthMap depth(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
@@ -29,7 +29,7 @@ DepthMap NoisyDepth(int width, int height) {
 
 ReliefWork::Source NoisySource(int width, int height) {
   return {std::make_shared<const DepthMap>(NoisyDepth(width, height)),
-          std::make_shared<const DepthMap>(width, height, kError),
+          std::make_shared<const DepthMap>(width, height, kNoise),
           {width, height},
           PlainBackdrop(width, height)};
 }

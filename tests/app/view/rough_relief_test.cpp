@@ -18,7 +18,7 @@ namespace {
 
 using namespace app;
 
-constexpr int kWidth = 1200, kHeight = 900;
+constexpr int kReliefWidth = 1200, kReliefHeight = 900;
 constexpr float kError = 5e-4f;  // m
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
@@ -26,7 +26,7 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 float HeightAt(int x, int y) {
   return 0.006f +
          0.002f * std::sin(static_cast<float>(x) / 90) * std::cos(static_cast<float>(y) / 110) +
-         (x < kWidth / 2 ? 0.0f : 0.008f);
+         (x < kReliefWidth / 2 ? 0.0f : 0.008f);
 }
 
 // Noise as that of a depth from brightness: alike over some pixels.
@@ -34,10 +34,11 @@ DepthMap NoisyMap() {
   constexpr int kAlike = 5;
   std::mt19937 random(11);
   std::normal_distribution<float> normal(0.0f, kError);
-  DepthMap noise(kWidth / kAlike + 1, kHeight / kAlike + 1), map(kWidth, kHeight);
+  DepthMap noise(kReliefWidth / kAlike + 1, kReliefHeight / kAlike + 1),
+      map(kReliefWidth, kReliefHeight);
   for (float& value : noise.relief) value = normal(random);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
+  for (int y = 0; y < kReliefHeight; ++y)
+    for (int x = 0; x < kReliefWidth; ++x)
       map.at(x, y) = HeightAt(x, y) + noise.at(x / kAlike, y / kAlike);
   return map;
 }
@@ -49,9 +50,9 @@ struct Off {
 Off OffTruth(const DepthMap& map) {
   double heights = 0, slopes = 0;
   int count = 0;
-  for (int y = 20; y < kHeight - 20; ++y)
-    for (int x = 20; x < kWidth - 20; ++x) {
-      if (std::abs(x - kWidth / 2) < 40) continue;
+  for (int y = 20; y < kReliefHeight - 20; ++y)
+    for (int x = 20; x < kReliefWidth - 20; ++x) {
+      if (std::abs(x - kReliefWidth / 2) < 40) continue;
       heights += std::pow(static_cast<double>(map.at(x, y) - HeightAt(x, y)), 2);
       slopes += std::pow(static_cast<double>(map.at(x + 1, y) - map.at(x, y) - HeightAt(x + 1, y) +
                                              HeightAt(x, y)),
@@ -64,15 +65,15 @@ Off OffTruth(const DepthMap& map) {
 // Before, the noise itself was drawn for the seconds that its removal takes: its slopes are what
 // the eye sees.
 TEST(RoughRelief, HasLittleOfTheNoiseAndTheStepAtItsPlace) {
-  const DepthMap depth = NoisyMap(), sigma(kWidth, kHeight, kError);
-  const Backdrop backdrop = PlainBackdrop(kWidth, kHeight);
+  const DepthMap depth = NoisyMap(), sigma(kReliefWidth, kReliefHeight, kError);
+  const Backdrop backdrop = PlainBackdrop(kReliefWidth, kReliefHeight);
   double start = ThreadCpuMs();
   const DepthMap rough = RoughRelief(depth, sigma, backdrop);
   const double rough_ms = ThreadCpuMs() - start;
   start = ThreadCpuMs();
   const DepthMap whole = simulation::WithoutNoise(depth, sigma, backdrop);
   const double whole_ms = ThreadCpuMs() - start;
-  ASSERT_EQ(rough.width, kWidth);
+  ASSERT_EQ(rough.width, kReliefWidth);
   const Off noisy = OffTruth(depth), quick = OffTruth(rough), best = OffTruth(whole);
   std::printf(
       "height off by %.0f um (noise), %.0f (rough), %.0f (whole); slope by %.1f um per "
@@ -82,9 +83,10 @@ TEST(RoughRelief, HasLittleOfTheNoiseAndTheStepAtItsPlace) {
   EXPECT_LT(quick.slope, 0.1 * noisy.slope);
   EXPECT_LT(quick.height, 0.5 * noisy.height);
   // Half of the step is reached within a block of its place.
-  for (int y = 100; y < kHeight - 100; y += 50) {
+  for (int y = 100; y < kReliefHeight - 100; y += 50) {
     const int reach = 2 * BlockSide(depth);
-    const float below = rough.at(kWidth / 2 - reach, y), above = rough.at(kWidth / 2 + reach, y);
+    const float below = rough.at(kReliefWidth / 2 - reach, y),
+                above = rough.at(kReliefWidth / 2 + reach, y);
     EXPECT_GT(above - below, 0.006f) << y;
   }
 }
@@ -93,10 +95,10 @@ TEST(RoughRelief, KeepsWhatIsUnknown) {
   DepthMap depth = NoisyMap();
   for (int y = 300; y < 420; ++y)
     for (int x = 200; x < 290; ++x) depth.at(x, y) = kUnknown;
-  const DepthMap rough =
-      RoughRelief(depth, DepthMap(kWidth, kHeight, kError), PlainBackdrop(kWidth, kHeight));
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
+  const DepthMap rough = RoughRelief(depth, DepthMap(kReliefWidth, kReliefHeight, kError),
+                                     PlainBackdrop(kReliefWidth, kReliefHeight));
+  for (int y = 0; y < kReliefHeight; ++y)
+    for (int x = 0; x < kReliefWidth; ++x)
       ASSERT_EQ(std::isfinite(rough.at(x, y)), std::isfinite(depth.at(x, y))) << x << ' ' << y;
 }
 

@@ -12,8 +12,6 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kMm = 1e-3;
-
 const SurfaceMesh& Block() {
   static const SurfaceMesh kBlock =
       test::Box(glm::dvec3(-10, -6, -2) * kMm, glm::dvec3(10, 6, 2) * kMm);

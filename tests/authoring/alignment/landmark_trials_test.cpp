@@ -10,8 +10,6 @@
 namespace arthro::test {
 namespace {
 
-constexpr double kMm = 1e-3;
-
 const std::vector<AlignmentCase>& Cases() {
   static const std::vector<AlignmentCase> kCases = MakeAlignmentCases(3);
   return kCases;

@@ -6,14 +6,15 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "simulation/core/units.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::authoring {
 namespace {
 
-constexpr double kMm = 1e-3;
-
-SurfaceMesh Block() { return test::Box(glm::dvec3(-10, -6, -2) * kMm, glm::dvec3(14, 6, 2) * kMm); }
+SurfaceMesh HandBlock() {
+  return test::Box(glm::dvec3(-10, -6, -2) * kMm, glm::dvec3(14, 6, 2) * kMm);
+}
 
 double Volume(const SurfaceMesh& surface) {
   double volume = 0;
@@ -36,7 +37,7 @@ TEST(PlaceByHand, AStepGoesAlongTheAxisThatIsAskedFor) {
 }
 
 TEST(PlaceByHand, ATurnLeavesTheMiddleWhereItIs) {
-  const glm::dvec3 middle = MiddleOf(Block());
+  const glm::dvec3 middle = MiddleOf(HandBlock());
   EXPECT_LT(glm::distance(middle, glm::dvec3(2, 0, 0) * kMm), 1e-12);
   Pose pose{glm::dvec3(1, 2, 30) * kMm, glm::angleAxis(0.4, glm::dvec3(0, 1, 0)), 1.5};
   for (const NudgeAxes axes : {NudgeAxes::kPortal, NudgeAxes::kTissue})
@@ -49,7 +50,7 @@ TEST(PlaceByHand, ATurnLeavesTheMiddleWhereItIs) {
 }
 
 TEST(PlaceByHand, AMirrorImageFacesOutwardsAndTwiceIsTheSame) {
-  const SurfaceMesh block = Block(), mirrored = Mirrored(block, 2 * kMm);
+  const SurfaceMesh block = HandBlock(), mirrored = Mirrored(block, 2 * kMm);
   EXPECT_NEAR(Volume(mirrored), Volume(block), 1e-15);
   const SurfaceMesh again = Mirrored(mirrored, 2 * kMm);
   EXPECT_EQ(again.triangles, block.triangles);
@@ -72,7 +73,7 @@ TEST(PlaceByHand, ABaseLiesOnTheReliefWithItsNormal) {
   scene.scene.backdrop.projection.centre_px = {199.5, 149.5};
   scene.scene.backdrop.projection.focal_px = 150;
   const ReliefTarget relief = MakeReliefTarget(scene);
-  const SurfaceMesh block = Block();
+  const SurfaceMesh block = HandBlock();
   const glm::dvec3 direction = glm::normalize(glm::dvec3(0.3, -0.2, 1)), place = 0.05 * direction;
   Pose present;
   present.position = glm::dvec3(0, 0, 20) * kMm;

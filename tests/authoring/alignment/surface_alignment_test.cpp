@@ -11,8 +11,6 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kMm = 1e-3;
-
 // The meniscus of the first phantom, and the relief that shows it.
 const test::AlignmentCase& Meniscus() {
   static const std::vector<test::AlignmentCase> kCases = test::MakeAlignmentCases(1);

@@ -14,11 +14,11 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kRadius = 0.05;  // m
+constexpr double kImportRadius = 0.05;  // m
 
 std::string RefusalOf(const GreyNumbers& numbers, const DepthImportOptions& options) {
   try {
-    ReliefFromNumbers(numbers, options, kRadius, 4, 2, "d.png");
+    ReliefFromNumbers(numbers, options, kImportRadius, 4, 2, "d.png");
   } catch (const Error& error) {
     return error.sentence();
   }
@@ -36,16 +36,18 @@ TEST(DepthImport, ReadsSixteenBitsWithTheirRange) {
     options.low = 0.03;
     options.high = 0.05;
     const GreyNumbers numbers = ReadGreyNumbers(folder.path() / name);
-    const DepthMap relief = ReliefFromNumbers(numbers, options, kRadius, 4, 2, name);
+    const DepthMap relief = ReliefFromNumbers(numbers, options, kImportRadius, 4, 2, name);
     EXPECT_NEAR(relief.at(0, 0), 0.0, 1e-8);
     EXPECT_TRUE(std::isnan(relief.at(1, 0)));
     EXPECT_NEAR(relief.at(2, 1), 0.05 - 0.034, 1e-8);
     options.is_zero_unknown = false;
-    EXPECT_NEAR(ReliefFromNumbers(numbers, options, kRadius, 4, 2, name).at(1, 0), 0.02, 1e-8);
+    EXPECT_NEAR(ReliefFromNumbers(numbers, options, kImportRadius, 4, 2, name).at(1, 0), 0.02,
+                1e-8);
     options.meaning = DepthMeaning::kRelief;
     options.low = 0;
     options.high = 0.01;
-    EXPECT_NEAR(ReliefFromNumbers(numbers, options, kRadius, 4, 2, name).at(0, 0), 0.01, 1e-8);
+    EXPECT_NEAR(ReliefFromNumbers(numbers, options, kImportRadius, 4, 2, name).at(0, 0), 0.01,
+                1e-8);
   }
 }
 
@@ -56,7 +58,7 @@ TEST(DepthImport, ReadsFloatingPointInItsUnit) {
     const cv::Mat map(2, 4, CV_32F, cv::Scalar(42.5));  // mm
     ASSERT_TRUE(cv::imwrite((folder.path() / name).string(), map)) << name;
     const DepthMap relief =
-        ReliefFromNumbers(ReadGreyNumbers(folder.path() / name), {}, kRadius, 4, 2, name);
+        ReliefFromNumbers(ReadGreyNumbers(folder.path() / name), {}, kImportRadius, 4, 2, name);
     EXPECT_NEAR(relief.at(3, 1), 0.0075, 1e-8) << name;
   }
 }

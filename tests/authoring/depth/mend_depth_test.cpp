@@ -16,8 +16,8 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr int kWidth = 400, kHeight = 240;
-constexpr double kRadius = 0.05;         // m, of the backdrop
+constexpr int kMapWidth = 400, kMapHeight = 240;
+constexpr double kMapRadius = 0.05;      // m, of the backdrop
 constexpr double kFloat = 2e-9;          // m, rounding of a float near 0.02
 constexpr glm::dvec2 kMiddle(200, 120);  // px
 
@@ -27,18 +27,19 @@ class MendDepth : public testing::Test {
     projection.centre_px = {199.5, 119.5};
     projection.focal_px = 300;
   }
-  MendedScene scene() const { return {panorama, projection, kRadius}; }
+  MendedScene scene() const { return {panorama, projection, kMapRadius}; }
   // A stroke through these pixels with a radius in px.
   static DepthStroke Stroke(StrokeKind kind, double radius, std::vector<glm::dvec2> pixels) {
     DepthStroke stroke;
     stroke.kind = kind;
-    stroke.radius = radius / kWidth;
-    for (const glm::dvec2& pixel : pixels) stroke.points.push_back((pixel + 0.5) / double(kWidth));
+    stroke.radius = radius / kMapWidth;
+    for (const glm::dvec2& pixel : pixels)
+      stroke.points.push_back((pixel + 0.5) / double(kMapWidth));
     return stroke;
   }
-  MendedDepth Flat(float height) const { return {DepthMap(kWidth, kHeight, height), {}, {}}; }
+  MendedDepth Flat(float height) const { return {DepthMap(kMapWidth, kMapHeight, height), {}, {}}; }
 
-  ColourImage panorama{kWidth, kHeight};
+  ColourImage panorama{kMapWidth, kMapHeight};
   Projection projection;
 };
 
@@ -78,8 +79,8 @@ TEST_F(MendDepth, LowersByItsAmountAlongTheWholeLineOnce) {
 
 TEST_F(MendDepth, SmoothKeepsARampAndSpreadsAPeakEvenly) {
   MendedDepth depth = Flat(0);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) depth.relief.at(x, y) = static_cast<float>(2e-5 * x);
+  for (int y = 0; y < kMapHeight; ++y)
+    for (int x = 0; x < kMapWidth; ++x) depth.relief.at(x, y) = static_cast<float>(2e-5 * x);
   const DepthMap ramp = depth.relief;
   DepthStroke stroke = Stroke(StrokeKind::kSmooth, 8, {kMiddle});  // means over 9 x 9 pixels
   ApplyStroke(stroke, scene(), depth);
@@ -97,13 +98,13 @@ TEST_F(MendDepth, FlattensANoisyPlaneToThePlane) {
   // A plane tilted by 20 degrees, 40 mm in front of the portal, with noise of 0.2 mm.
   const glm::dvec3 normal(std::sin(0.35), 0, std::cos(0.35));
   const auto height_of = [&](int x, int y) {
-    return kRadius - 0.04 / glm::dot(normal, DirectionFromPixel(projection, glm::dvec2(x, y)));
+    return kMapRadius - 0.04 / glm::dot(normal, DirectionFromPixel(projection, glm::dvec2(x, y)));
   };
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0, 2e-4);
   MendedDepth depth = Flat(0);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
+  for (int y = 0; y < kMapHeight; ++y)
+    for (int x = 0; x < kMapWidth; ++x)
       depth.relief.at(x, y) = static_cast<float>(height_of(x, y) + noise(random));
   DepthStroke stroke = Stroke(StrokeKind::kFlatten, 40, {kMiddle});
   stroke.hardness = 1;
@@ -123,8 +124,8 @@ TEST_F(MendDepth, FlattensANoisyPlaneToThePlane) {
 
 TEST_F(MendDepth, CopiesTheShapeOfTheBrightnessAtTheMeanHeight) {
   // White on the right half: luminances 0 and 1, as many pixels of each.
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = kWidth / 2; x < kWidth; ++x)
+  for (int y = 0; y < kMapHeight; ++y)
+    for (int x = kMapWidth / 2; x < kMapWidth; ++x)
       std::fill(panorama.at(x, y), panorama.at(x, y) + 3, std::uint8_t{255});
   MendedDepth depth = Flat(0.01f);
   DepthStroke stroke = Stroke(StrokeKind::kBrightness, 20, {{199.5, 120}});
@@ -137,8 +138,8 @@ TEST_F(MendDepth, CopiesTheShapeOfTheBrightnessAtTheMeanHeight) {
 
 TEST_F(MendDepth, UnknownRemovesTheDepthUpToHalfItsWeight) {
   MendedDepth depth = Flat(0.01f);
-  depth.sigma = DepthMap(kWidth, kHeight, 1e-4f);
-  depth.origin = OriginMap(kWidth, kHeight, ReliefOrigin::kMeasured);
+  depth.sigma = DepthMap(kMapWidth, kMapHeight, 1e-4f);
+  depth.origin = OriginMap(kMapWidth, kMapHeight, ReliefOrigin::kMeasured);
   ApplyStroke(Stroke(StrokeKind::kUnknown, 20, {kMiddle}), scene(), depth);
   EXPECT_TRUE(std::isnan(depth.relief.at(200, 120)));
   EXPECT_TRUE(std::isnan(depth.sigma.at(200, 120)));
@@ -151,8 +152,8 @@ TEST_F(MendDepth, UnknownRemovesTheDepthUpToHalfItsWeight) {
 TEST_F(MendDepth, EdgeTurnsARampIntoAStepOnItsLine) {
   // Heights rise from 5 to 15 mm over 20 px, as behind a median; the edge lies in the middle.
   MendedDepth depth = Flat(0);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
+  for (int y = 0; y < kMapHeight; ++y)
+    for (int x = 0; x < kMapWidth; ++x)
       depth.relief.at(x, y) =
           static_cast<float>(0.005 + 0.01 * std::clamp((x - 190) / 20.0, 0.0, 1.0));
   DepthStroke stroke = Stroke(StrokeKind::kEdge, 15, {{199.5, 40}, {199.5, 200}});
@@ -165,7 +166,7 @@ TEST_F(MendDepth, EdgeTurnsARampIntoAStepOnItsLine) {
 
 TEST_F(MendDepth, MaskSpansTheSurroundAndSaysThatItIsInterpolated) {
   MendedDepth depth = Flat(0.01f);
-  depth.origin = OriginMap(kWidth, kHeight, ReliefOrigin::kMeasured);
+  depth.origin = OriginMap(kMapWidth, kMapHeight, ReliefOrigin::kMeasured);
   for (int y = 115; y < 125; ++y)
     for (int x = 195; x < 205; ++x) depth.relief.at(x, y) = 0.03f;  // a glint
   ApplyStroke(Stroke(StrokeKind::kMask, 12, {kMiddle}), scene(), depth);
@@ -202,8 +203,8 @@ TEST_F(MendDepth, LeavesUnknownPixelsUnknownAndOutOfMeans) {
 
 TEST_F(MendDepth, StatesThatAChangedMeasurementIsNoLongerMeasured) {
   MendedDepth depth = Flat(0.01f);
-  depth.sigma = DepthMap(kWidth, kHeight, 3e-4f);
-  depth.origin = OriginMap(kWidth, kHeight, ReliefOrigin::kMeasured);
+  depth.sigma = DepthMap(kMapWidth, kMapHeight, 3e-4f);
+  depth.origin = OriginMap(kMapWidth, kMapHeight, ReliefOrigin::kMeasured);
   DepthStroke stroke = Stroke(StrokeKind::kRaise, 20, {kMiddle});
   stroke.amount = 4e-4;
   ApplyStroke(stroke, scene(), depth);
@@ -215,14 +216,14 @@ TEST_F(MendDepth, StatesThatAChangedMeasurementIsNoLongerMeasured) {
 TEST_F(MendDepth, KeepsItsPlaceAtAnotherResolution) {
   const DepthStroke stroke = Stroke(StrokeKind::kRaise, 24, {{100, 80}, {300, 160}});
   MendedDepth full = Flat(0.01f);
-  MendedDepth half{DepthMap(kWidth / 2, kHeight / 2, 0.01f), {}, {}};
+  MendedDepth half{DepthMap(kMapWidth / 2, kMapHeight / 2, 0.01f), {}, {}};
   const StrokeReport large = ApplyStroke(stroke, scene(), full),
                      small = ApplyStroke(stroke, scene(), half);
   EXPECT_NEAR(small.touched, large.touched / 4.0, 0.03 * large.touched / 4.0);
   // A pixel of the half size has its centre between four pixels of the full size. The slope of the
   // falloff, 1.5 / 12 px, bounds the difference of a height half a pixel away.
-  for (int y = 0; y < kHeight / 2; ++y)
-    for (int x = 0; x < kWidth / 2; ++x)
+  for (int y = 0; y < kMapHeight / 2; ++y)
+    for (int x = 0; x < kMapWidth / 2; ++x)
       ASSERT_NEAR(half.relief.at(x, y), full.relief.at(2 * x, 2 * y), 1e-3 * 0.71 * 1.5 / 12);
 }
 
@@ -251,7 +252,7 @@ TEST_F(MendDepth, GivesTheSameBytesForAnyNumberOfThreads) {
 TEST_F(MendDepth, MasksHoldTheEstimatorOffAGlintAndKeepsTakeThemAway) {
   // Tissue of one grey with a white square: an instrument, too large for a glint.
   std::fill(panorama.rgb.begin(), panorama.rgb.end(), std::uint8_t{100});
-  for (int x = 0; x < kWidth; ++x)
+  for (int x = 0; x < kMapWidth; ++x)
     for (int y = 0; y < 20; ++y)
       std::fill(panorama.at(x, y), panorama.at(x, y) + 3, std::uint8_t(60));
   for (int y = 100; y < 150; ++y)
@@ -266,13 +267,13 @@ TEST_F(MendDepth, MasksHoldTheEstimatorOffAGlintAndKeepsTakeThemAway) {
   EXPECT_LT(plain.at(300, 125), 0.5 * options.near_relief);
   DepthStrokes strokes = {Stroke(StrokeKind::kMask, 45, {{130, 125}})};
   const DepthMap masked =
-      DepthFromColour(panorama, options, nullptr, {}, MarksOf(strokes, kWidth, kHeight));
+      DepthFromColour(panorama, options, nullptr, {}, MarksOf(strokes, kMapWidth, kMapHeight));
   // Without the instrument the tissue itself spans the range.
   EXPECT_NEAR(masked.at(300, 125), options.near_relief, 1e-6);
   EXPECT_NEAR(masked.at(130, 125), options.near_relief, 1e-6);
   strokes.push_back(Stroke(StrokeKind::kKeep, 45, {{130, 125}}));
-  EXPECT_TRUE(SameBytes(
-      plain, DepthFromColour(panorama, options, nullptr, {}, MarksOf(strokes, kWidth, kHeight))));
+  EXPECT_TRUE(SameBytes(plain, DepthFromColour(panorama, options, nullptr, {},
+                                               MarksOf(strokes, kMapWidth, kMapHeight))));
 }
 
 TEST_F(MendDepth, StrokesSurviveTheirFile) {

@@ -11,7 +11,7 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr int kWidth = 120, kHeight = 72;
+constexpr int kPictureWidth = 120, kPictureHeight = 72;
 constexpr double kPxPerDeg = 10.24;  // size M
 constexpr int kFine = 8;             // samples per side of a pixel of the reference
 
@@ -27,9 +27,10 @@ PhantomPicture DrawWindow(const Cavity& cavity, double latitude_deg, double long
   const double exposure = ExposureOf(view, whole, 400, 300);
   // Pixel i of the coarse picture covers pixels fine * i to fine * i + fine - 1 of the fine one.
   window.px_per_deg = kPxPerDeg * fine;
-  window.centre_px = {((kWidth - 1) / 2.0 - kPxPerDeg * longitude_deg + 0.5) * fine - 0.5,
-                      ((kHeight - 1) / 2.0 + kPxPerDeg * latitude_deg + 0.5) * fine - 0.5};
-  return RenderPanorama(view, window, kWidth * fine, kHeight * fine, exposure, 2, {}, "");
+  window.centre_px = {((kPictureWidth - 1) / 2.0 - kPxPerDeg * longitude_deg + 0.5) * fine - 0.5,
+                      ((kPictureHeight - 1) / 2.0 + kPxPerDeg * latitude_deg + 0.5) * fine - 0.5};
+  return RenderPanorama(view, window, kPictureWidth * fine, kPictureHeight * fine, exposure, 2, {},
+                        "");
 }
 
 // Mean over the samples of one channel of a pixel.
@@ -43,14 +44,14 @@ double MeanOf(const ColourImage& fine, int x, int y, int channel) {
 // Share of pixels that differ from the mean of their samples by more than `levels` in a channel.
 double ShareOff(const ColourImage& picture, const ColourImage& fine, double levels) {
   int off = 0;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kPictureHeight; ++y)
+    for (int x = 0; x < kPictureWidth; ++x) {
       double most = 0;
       for (int c = 0; c < 3; ++c)
         most = std::max(most, std::abs(picture.at(x, y)[c] - MeanOf(fine, x, y, c)));
       off += most > levels;
     }
-  return static_cast<double>(off) / (kWidth * kHeight);
+  return static_cast<double>(off) / (kPictureWidth * kPictureHeight);
 }
 
 struct Place {

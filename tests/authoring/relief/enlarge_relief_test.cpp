@@ -8,7 +8,7 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoRange = std::numeric_limits<float>::quiet_NaN();
 
 TEST(EnlargedMap, IsLinearBetweenTheCells) {
   DepthMap map(6, 4);
@@ -27,7 +27,7 @@ TEST(EnlargedMap, KeepsAStepAndTheUnknownSharp) {
   DepthMap map(6, 4);
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 6; ++x) map.at(x, y) = x < 3 ? 0.0f : 0.012f;
-  map.at(0, 0) = kUnknown;
+  map.at(0, 0) = kNoRange;
   const DepthMap large = EnlargedMap(map, 4, 1e-3f);
   for (int x = 0; x < 24; ++x) EXPECT_EQ(large.at(x, 12), x < 12 ? 0.0f : 0.012f);
   for (int y = 0; y < 16; ++y)

@@ -12,9 +12,9 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kRadius = 0.040;  // m
+constexpr double kSphere = 0.040;  // m
 constexpr int kWidth = 120, kHeight = 60;
-const double kCell = RadiansFromDegrees(0.5);
+const double kCellAngle = RadiansFromDegrees(0.5);
 
 SurfaceCells Cells() {
   return CellDirections({ProjectionType::kEquirectangular, {kWidth / 2, kHeight / 2}, 1000, 2},
@@ -22,7 +22,7 @@ SurfaceCells Cells() {
 }
 
 ClosedSurface Sphere(double sigma) {
-  return {cv::Mat(kHeight, kWidth, CV_32F, cv::Scalar(kRadius)),
+  return {cv::Mat(kHeight, kWidth, CV_32F, cv::Scalar(kSphere)),
           cv::Mat(kHeight, kWidth, CV_32F, cv::Scalar(sigma)),
           cv::Mat(kHeight, kWidth, CV_8U, cv::Scalar(static_cast<int>(ReliefOrigin::kMeasured)))};
 }
@@ -41,7 +41,7 @@ TEST(LitSurface, TakesNoSlopeFromAnUncertainRim) {
   constexpr int kRim = 12;  // cells, of 45 degrees and an error of up to six deviations
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kRim; ++x) {
-      closed.radius.at<float>(y, x) = static_cast<float>(kRadius * (1 + kCell * (kRim - x)));
+      closed.radius.at<float>(y, x) = static_cast<float>(kSphere * (1 + kCellAngle * (kRim - x)));
       closed.sigma.at<float>(y, x) = 7e-4f;
     }
   const LitSurface lit = LitSurfaceOf(cells, closed);
@@ -59,7 +59,8 @@ TEST(LitSurface, KeepsTheSlopesOfAWellMeasuredSurface) {
       closed.radius.at<float>(y, x) += static_cast<float>(
           kHeightOfWaves * std::sin(2 * std::numbers::pi * (x - kWidth / 2) / kWave));
   const LitSurface lit = LitSurfaceOf(cells, closed);
-  const double slope = std::atan(kHeightOfWaves * 2 * std::numbers::pi / (kWave * kCell * kRadius));
+  const double slope =
+      std::atan(kHeightOfWaves * 2 * std::numbers::pi / (kWave * kCellAngle * kSphere));
   // A Gaussian of 3 cells leaves exp(-2 π² 3² / 40²) = 0.895 of such waves; differences over two
   // cells to either side leave 0.984 of that.
   const double seen = SlopeAt(cells, lit, kWidth / 2, kHeight / 2);

@@ -37,21 +37,21 @@ std::string Refusal(const SurfaceMesh& surface) {
 #define EXPECT_SAYS(sentence, part) \
   EXPECT_NE((sentence).find(part), std::string::npos) << "it said: " << (sentence)
 
-const SurfaceMesh kBox = Box({0, 0, 0}, {0.01, 0.02, 0.03});
+const SurfaceMesh kSoundBox = Box({0, 0, 0}, {0.01, 0.02, 0.03});
 
 TEST(SurfaceCheck, SoundSurfacesPassWithTheirMeasures) {
-  const SurfaceCheck check = CheckSurface(kBox);
-  EXPECT_EQ(Refusal(kBox), "");
+  const SurfaceCheck check = CheckSurface(kSoundBox);
+  EXPECT_EQ(Refusal(kSoundBox), "");
   EXPECT_EQ(check.components, 1);
   EXPECT_DOUBLE_EQ(check.volume, 6e-6);
   EXPECT_DOUBLE_EQ(check.area, 2 * (2e-4 + 3e-4 + 6e-4));
   EXPECT_EQ(check.high, glm::dvec3(0.01, 0.02, 0.03));
   EXPECT_EQ(Refusal(test::Torus(0.02, 0.005, 30, 12)), "") << "a ring is closed as well";
-  EXPECT_EQ(Refusal(Together(kBox, Box({0.02, 0, 0}, {0.03, 0.01, 0.01}))), "") << "two parts";
+  EXPECT_EQ(Refusal(Together(kSoundBox, Box({0.02, 0, 0}, {0.03, 0.01, 0.01}))), "") << "two parts";
 }
 
 TEST(SurfaceCheck, OpenSurfaceIsRefusedWithPlaceAndRemedy) {
-  SurfaceMesh open = kBox;
+  SurfaceMesh open = kSoundBox;
   open.triangles.erase(open.triangles.begin() + 2);  // in the face z = 30 mm
   const std::string refusal = Refusal(open);
   EXPECT_SAYS(refusal, "open: 3 triangle sides");
@@ -60,14 +60,14 @@ TEST(SurfaceCheck, OpenSurfaceIsRefusedWithPlaceAndRemedy) {
 }
 
 TEST(SurfaceCheck, EdgeOfThreeTrianglesIsRefused) {
-  SurfaceMesh fin = kBox;
+  SurfaceMesh fin = kSoundBox;
   fin.vertices.push_back({-0.01, -0.01, 0.015});
   fin.triangles.push_back({0, 4, 8});
   EXPECT_SAYS(Refusal(fin), "more than two triangles meet at one edge, near 0, 0, 15 mm");
 }
 
 TEST(SurfaceCheck, PartsThatShareASinglePointAreRefused) {
-  SurfaceMesh two = Together(kBox, Box({0.01, 0.02, 0.03}, {0.02, 0.03, 0.04}));
+  SurfaceMesh two = Together(kSoundBox, Box({0.01, 0.02, 0.03}, {0.02, 0.03, 0.04}));
   for (auto& triangle : two.triangles)
     for (int& corner : triangle)
       if (corner == 8) corner = 7;  // the second box's lowest corner is the first one's highest
@@ -76,7 +76,7 @@ TEST(SurfaceCheck, PartsThatShareASinglePointAreRefused) {
 
 TEST(SurfaceCheck, SelfIntersectionIsRefusedWithCountAndTriangles) {
   const std::string refusal =
-      Refusal(Together(kBox, Box({0.005, 0.005, 0.005}, {0.03, 0.01, 0.01})));
+      Refusal(Together(kSoundBox, Box({0.005, 0.005, 0.005}, {0.03, 0.01, 0.01})));
   EXPECT_SAYS(refusal, "runs through itself at ");
   EXPECT_SAYS(refusal, "near 10, ");
   EXPECT_SAYS(refusal, "(triangles ");
@@ -85,7 +85,7 @@ TEST(SurfaceCheck, SelfIntersectionIsRefusedWithCountAndTriangles) {
 TEST(SurfaceCheck, ReportsTheTriangleNumbersOfTheFile) {
   SurfaceSource source = kMillimetres;
   for (int i = 0; i < 13; ++i) source.triangle_in_file.push_back(1000 + i);
-  SurfaceMesh fin = kBox;
+  SurfaceMesh fin = kSoundBox;
   fin.triangles.push_back({0, 4, 3});
   EXPECT_SAYS(SentenceOf([&] { RequireMeshable(CheckSurface(fin), source); }), "triangles 10");
 }

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 #define EXPECT_SAYS(sentence, part) \
   EXPECT_NE((sentence).find(part), std::string::npos) << "it said: " << (sentence)
 
-const SurfaceMesh kBox = test::Box({0, 0, 0}, {0.01, 0.01, 0.01});
+const SurfaceMesh kCube = test::Box({0, 0, 0}, {0.01, 0.01, 0.01});
 
 struct Outcome {
   std::string sentence;
@@ -35,7 +35,7 @@ Outcome FillWith(const fs::path& program, TetrahedralizeOptions options = {},
                  const Progress& progress = {}) {
   Outcome outcome;
   try {
-    Tetrahedralize(kBox, {}, options, &outcome.report, progress, program);
+    Tetrahedralize(kCube, {}, options, &outcome.report, progress, program);
   } catch (const Error& error) {
     outcome.sentence = error.sentence();
   }

@@ -27,14 +27,14 @@ const SurfaceMesh& LargeSurface() {
   return sphere;
 }
 
-struct Outcome {
+struct TimedRun {
   std::string sentence;
   std::set<std::string> stages;
 };
 
 template <class Work>
-Outcome Watch(const Work& work, const std::atomic<bool>* stop = nullptr) {
-  Outcome outcome;
+TimedRun Watch(const Work& work, const std::atomic<bool>* stop = nullptr) {
+  TimedRun outcome;
   Progress progress;
   progress.stop = stop;
   progress.report = [&](std::string_view stage, double) { outcome.stages.emplace(stage); };
@@ -46,7 +46,7 @@ Outcome Watch(const Work& work, const std::atomic<bool>* stop = nullptr) {
   return outcome;
 }
 
-Outcome FillToBudget(double time_limit, std::optional<Clock::time_point> begun = {}) {
+TimedRun FillToBudget(double time_limit, std::optional<Clock::time_point> begun = {}) {
   MeshWish wish;
   wish.time_limit = time_limit;
   wish.begun = begun;
@@ -57,7 +57,7 @@ Outcome FillToBudget(double time_limit, std::optional<Clock::time_point> begun =
 
 TEST(TimeLimit, EndsABudgetedMeshDuringTheSurfaceStages) {
   LargeSurface();
-  const Outcome outcome = FillToBudget(0.2);
+  const TimedRun outcome = FillToBudget(0.2);
   EXPECT_NE(outcome.sentence.find("did not finish in time (0.2 s)"), std::string::npos)
       << outcome.sentence;
   EXPECT_NE(outcome.sentence.find("131072"), std::string::npos) << outcome.sentence;
@@ -65,7 +65,7 @@ TEST(TimeLimit, EndsABudgetedMeshDuringTheSurfaceStages) {
 }
 
 TEST(TimeLimit, CountsFromTheStartOfTheJob) {
-  const Outcome outcome = FillToBudget(5.0, Clock::now() - std::chrono::seconds(6));
+  const TimedRun outcome = FillToBudget(5.0, Clock::now() - std::chrono::seconds(6));
   EXPECT_NE(outcome.sentence.find("did not finish in time (5 s)"), std::string::npos)
       << outcome.sentence;
 }
@@ -74,7 +74,7 @@ TEST(TimeLimit, EndsTheStagesBeforeTheMesher) {
   TetrahedralizeOptions options;
   options.max_triangles = 400;
   options.time_limit = 0.2;
-  const Outcome outcome = Watch([&](const Progress& progress) {
+  const TimedRun outcome = Watch([&](const Progress& progress) {
     Tetrahedralize(LargeSurface(), {}, options, nullptr, progress, ARTHRO_PROGRAM);
   });
   EXPECT_NE(outcome.sentence.find("did not finish in time (0.2 s)"), std::string::npos)
@@ -83,7 +83,7 @@ TEST(TimeLimit, EndsTheStagesBeforeTheMesher) {
 
 TEST(TimeLimit, LongStagesReportProgressAndCanBeCancelled) {
   const SurfaceMesh sphere = test::Sphere({0, 0, 0}, 0.01, 6);
-  const Outcome outcome = Watch([&](const Progress& progress) {
+  const TimedRun outcome = Watch([&](const Progress& progress) {
     SurfaceMesh simple = RepairSurface(sphere, {}, progress).surface;
     CheckSurface(simple, progress);
     SimplifySurface(simple, 500, progress);

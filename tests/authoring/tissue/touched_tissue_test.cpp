@@ -21,6 +21,7 @@
 #include "tests/support/build_paths.h"
 #include "tests/support/gmsh_outside.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::authoring {
 namespace {
@@ -29,7 +30,7 @@ using simulation::BodyReport;
 using simulation::BodySpec;
 using simulation::ToolKind;
 
-constexpr double kFrame = 1.0 / 60;  // s
+using test::kFrame;
 constexpr int kSteps = 400;
 
 // Not wedged, contacts have up to twice the friction of their push, and the servo may lose all of

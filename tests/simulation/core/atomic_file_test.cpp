@@ -13,18 +13,12 @@
 namespace arthro {
 namespace {
 
-int FilesIn(const std::filesystem::path& folder) {
-  int count = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++count;
-  return count;
-}
-
 TEST(AtomicFile, ReplacesWhatWasThere) {
   test::TempFolder folder;
   WriteAtomically(folder / "a.txt", "first");
   WriteAtomically(folder / "a.txt", "second");
   EXPECT_EQ(ReadWholeFile(folder / "a.txt"), "second");
-  EXPECT_EQ(FilesIn(folder.path()), 1);
+  EXPECT_EQ(test::FileCount(folder.path()), 1);
 }
 
 TEST(AtomicFile, AFaultLeavesTheOldFileAndNothingBeside) {
@@ -37,7 +31,7 @@ TEST(AtomicFile, AFaultLeavesTheOldFileAndNothingBeside) {
                                }),
                Error);
   EXPECT_EQ(ReadWholeFile(folder / "a.txt"), "first");
-  EXPECT_EQ(FilesIn(folder.path()), 1);
+  EXPECT_EQ(test::FileCount(folder.path()), 1);
 }
 
 // /dev/full is the kernel's own full disk.
@@ -52,7 +46,7 @@ TEST(AtomicFile, SaysThatTheDiskIsFull) {
     EXPECT_EQ(error.code(), Code::kFile);
     EXPECT_NE(error.sentence().find("disk is full"), std::string::npos) << error.what();
   }
-  EXPECT_EQ(FilesIn(folder.path()), 1) << "nothing was left beside the device";
+  EXPECT_EQ(test::FileCount(folder.path()), 1) << "nothing was left beside the device";
   EXPECT_TRUE(std::filesystem::is_character_file(folder / "a.txt"));
 }
 
@@ -124,7 +118,7 @@ TEST(AtomicFile, AReadOnlyFileIsRefused) {
   }
   EXPECT_EQ(ReadWholeFile(folder / "a.txt"), "first");
   EXPECT_EQ(ModeOf(folder / "a.txt"), 0444u);
-  EXPECT_EQ(FilesIn(folder.path()), 1);
+  EXPECT_EQ(test::FileCount(folder.path()), 1);
 }
 
 TEST(AtomicFile, ASymbolicLinkIsWrittenThrough) {
@@ -139,7 +133,7 @@ TEST(AtomicFile, ASymbolicLinkIsWrittenThrough) {
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "second"));
   EXPECT_EQ(ReadWholeFile(folder / "store/real.txt"), "second");
   EXPECT_EQ(ModeOf(folder / "store/real.txt"), 0600u);
-  EXPECT_EQ(FilesIn(folder / "store"), 1);
+  EXPECT_EQ(test::FileCount(folder / "store"), 1);
   // A link to a file that does not exist yet, and one that names itself.
   std::filesystem::create_symlink("store/new.txt", folder / "new");
   WriteAtomically(folder / "new", "text");

@@ -6,10 +6,12 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/support/ticks.h"
+
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTick = 1e-3;  // s
+using test::kTick;
 
 PlantOptions Ideal(int delay = 0) { return {0.045, 0.2, 0, 0, 1e9, delay}; }
 

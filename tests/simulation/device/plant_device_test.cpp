@@ -6,11 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/allocation_counter.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTick = 1e-3;
+using test::kTick;
 
 // Ticks with a constant force and returns the last sample.
 DeviceSample Hold(Device& device, double& now, int ticks, const glm::dvec3& force, bool is_held) {

@@ -15,14 +15,16 @@
 #include "tests/support/allocation_counter.h"
 #include "tests/support/haptics/analytic_relief.h"
 #include "tests/support/shapes.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
 using test::AnalyticRelief;
 
-constexpr double kStiffness = 500.0, kTick = 0.001;
-constexpr double kPixel = 5e-5;  // m, of AnalyticRelief
+using test::kTick;
+constexpr double kStiffness = 500.0;
+constexpr double kReliefPixel = 5e-5;  // m, of AnalyticRelief
 constexpr float kHole = std::numeric_limits<float>::quiet_NaN();
 
 AnalyticRelief Flat(double h = 0.004) {
@@ -91,7 +93,7 @@ TEST_P(Cliff, HardCase9NoPopThroughBelowTwoHundredMillimetresASecond) {
     EXPECT_LT(run.contact.back().force.x, -kStiffness * 0.0025) << "the wall pushes back";
     // Per tick the force changes by at most the motion of tip and proxy: twice that of the tip, and
     // two pixels.
-    EXPECT_LT(run.LargestStep(), kStiffness * (2 * speed * kTick + 2 * kPixel));
+    EXPECT_LT(run.LargestStep(), kStiffness * (2 * speed * kTick + 2 * kReliefPixel));
   }
 }
 
@@ -107,7 +109,7 @@ TEST_P(Cliff, HardCase9DownTheCliffTheForceFallsWithoutAKick) {
   const Felt run = Lead({field, {}}, Bare(), 200, [&](int i) {
     return 0.0445 * edge + (-0.005 + speed * i * kTick) * right;
   });
-  EXPECT_LT(run.LargestStep(), kStiffness * (2 * speed * kTick + 2 * kPixel));
+  EXPECT_LT(run.LargestStep(), kStiffness * (2 * speed * kTick + 2 * kReliefPixel));
   EXPECT_EQ(run.contact.back().contact, -1) << "over the low ground the tip is free";
 }
 
@@ -141,7 +143,8 @@ TEST(Contact, HardCase9HolesAndBordersFadeTheForce) {
   // 1 mm fades over 8 pixels, crossed in 7 ticks: the steepest part of a smooth step is 1.5 / 7 of
   // 0.5 N.
   // For a tip from below, the proxy also climbs to the surface.
-  EXPECT_LT(run.LargestStep(), 0.5 * 1.5 / 7 + kStiffness * (2 * 1.2 * kPixel + 2 * kPixel));
+  EXPECT_LT(run.LargestStep(),
+            0.5 * 1.5 / 7 + kStiffness * (2 * 1.2 * kReliefPixel + 2 * kReliefPixel));
 }
 
 // Moves off the top of a box of 2 mm down to the backdrop, at a depth of 0.5 mm below either
@@ -175,7 +178,7 @@ TEST(Contact, SweepAcrossASilhouetteHasNoStep) {
         // At the edge, 0.5 mm beside the start of the descent, the tip is 0.79 mm below the top.
         EXPECT_NEAR(peak, kStiffness * (along(0.004).z - 0.048), 0.03) << "counted once";
       }
-      const double bound = kStiffness * (2 * fastest + 2 * kPixel);
+      const double bound = kStiffness * (2 * fastest + 2 * kReliefPixel);
       std::printf("silhouette %s at %3.0f mm/s: largest step %.4f N, bound %.4f N\n",
                   is_back ? "from the side" : "from the top", 1e3 * speed, run.LargestStep(),
                   bound);
@@ -198,7 +201,7 @@ TEST(Contact, WedgeBetweenMeshAndBackdropHoldsTheTip) {
   EXPECT_NEAR(force.z, -kStiffness * 0.0003, 0.005);
   EXPECT_EQ(run.contact.back().contact, 1) << "the box carries most";
   EXPECT_EQ(run.contact[50].contact, 0);
-  EXPECT_LT(run.LargestStep(), kStiffness * (2 * speed * kTick + 2 * kPixel));
+  EXPECT_LT(run.LargestStep(), kStiffness * (2 * speed * kTick + 2 * kReliefPixel));
 }
 
 // HAP-08: another depth map, 3 mm nearer, while in contact.
@@ -211,7 +214,7 @@ TEST(Contact, HardCase8SwappedDepthMapDoesNotThrowTheProxy) {
   glm::dvec3 last = state.proxy.position;
   for (int i = 0; i < 100; ++i) {
     TickContact({after, {}}, Bare(), kStiffness, {}, tip, kTick, state);
-    ASSERT_LT(glm::length(state.proxy.position - last), 2 * kPixel + 1e-7);
+    ASSERT_LT(glm::length(state.proxy.position - last), 2 * kReliefPixel + 1e-7);
     last = state.proxy.position;
   }
   EXPECT_NEAR(last.z, 0.043, 1e-6) << "it has climbed to the new surface";

@@ -6,10 +6,12 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/support/ticks.h"
+
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTick = 0.001;
+using test::kTick;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 

@@ -10,11 +10,13 @@
 
 #include "simulation/device/hand_plant.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTick = 1e-3, kNan = std::numeric_limits<double>::quiet_NaN();
+using test::kTick;
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 struct Chain {
   PassivityOptions passivity;
@@ -51,7 +53,7 @@ TEST(OutputChain, HardCase6AnyForceIsFiniteClampedAndKeepsItsDirection) {
         1.0, 1e-12);
     EXPECT_EQ(sent.fault, Fault::kNone);
   }
-  for (const double bad : {kNan, HUGE_VAL, -HUGE_VAL}) {
+  for (const double bad : {kNoNumber, HUGE_VAL, -HUGE_VAL}) {
     Chain chain;
     chain.Send(Push({1, 0, 0}), 1000);
     const LimitedForce sent = chain.Send(Push({0, bad, 0}));

@@ -11,11 +11,12 @@
 
 #include "simulation/device/hand_plant.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTick = 1e-3;  // s
+using test::kTick;
 
 struct Touch {
   double swing = 0;      // m, of the last half second

@@ -17,23 +17,23 @@ std::size_t At(int x, int y) {
   return static_cast<std::size_t>(y) * kWide + static_cast<std::size_t>(x);
 }
 
-Plane RandomPlane(unsigned seed, float low, float high) {
+FloatPlane RandomPlane(unsigned seed, float low, float high) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> number(low, high);
-  Plane plane(static_cast<std::size_t>(kWide) * kHigh);
+  FloatPlane plane(static_cast<std::size_t>(kWide) * kHigh);
   for (float& value : plane) value = number(random);
   return plane;
 }
 
 // The definition: rows first, then columns.
-Plane Widened(const Plane& data, int gap, const OuterTaps& taps) {
-  const auto value = [](const Plane& of, int x, int y) {
+FloatPlane Widened(const FloatPlane& data, int gap, const OuterTaps& taps) {
+  const auto value = [](const FloatPlane& of, int x, int y) {
     return x < 0 || y < 0 || x >= kWide || y >= kHigh ? 0.0f : of[At(x, y)];
   };
-  const auto tap = [&](const Plane& of, int x, int y) {
+  const auto tap = [&](const FloatPlane& of, int x, int y) {
     return of.empty() || x < 0 || y < 0 ? 0.25f : of[At(x, y)];
   };
-  Plane across(data.size()), both(data.size());
+  FloatPlane across(data.size()), both(data.size());
   for (int y = 0; y < kHigh; ++y)
     for (int x = 0; x < kWide; ++x)
       across[At(x, y)] = taps.right.empty()
@@ -51,15 +51,15 @@ Plane Widened(const Plane& data, int gap, const OuterTaps& taps) {
 }
 
 TEST(PlaneFilters, WidenHasTheBytesOfItsDefinitionInEveryWindow) {
-  const Plane data = RandomPlane(1, -1.0f, 1.0f);
+  const FloatPlane data = RandomPlane(1, -1.0f, 1.0f);
   const OuterTaps none, steps{RandomPlane(2, 0.0f, 0.25f), RandomPlane(3, 0.0f, 0.25f)};
   for (const OuterTaps& taps : {none, steps})
     for (const int gap : {1, 2, 8, 32, 64}) {
-      const Plane wanted = Widened(data, gap, taps);
+      const FloatPlane wanted = Widened(data, gap, taps);
       for (const PixelBounds& window :
            {PixelBounds{0, 0, kWide, kHigh}, PixelBounds{20, 11, 41, 30},
             PixelBounds{0, 40, 5, kHigh}, PixelBounds{50, 0, kWide, 9}}) {
-        Plane widened = data, scratch;
+        FloatPlane widened = data, scratch;
         Widen(widened, kWide, kHigh, gap, taps, window, scratch);
         for (int y = window.top; y < window.bottom; ++y)
           for (int x = window.left; x < window.right; ++x)
@@ -70,10 +70,10 @@ TEST(PlaneFilters, WidenHasTheBytesOfItsDefinitionInEveryWindow) {
 }
 
 TEST(PlaneFilters, DilateIsTheMaximumOfTheSquare) {
-  Plane data = RandomPlane(4, -1.0f, 1.0f);
+  FloatPlane data = RandomPlane(4, -1.0f, 1.0f);
   for (int i = 0; i < 40; ++i) data[At(3 * i % kWide, i)] = -std::numeric_limits<float>::infinity();
   for (const int reach : {0, 1, 3, 8, 30, 70}) {
-    Plane dilated = data;
+    FloatPlane dilated = data;
     Dilate(dilated, kWide, kHigh, reach);
     for (int y = 0; y < kHigh; ++y)
       for (int x = 0; x < kWide; ++x) {

@@ -23,15 +23,15 @@ namespace {
 
 using test::AnalyticRelief;
 
-constexpr int kSide = 512;
+constexpr int kMapSide = 512;
 constexpr double kSphere = 0.05, kLevel = 0.004;  // m
 
 // Surface at 46 mm with pixels of 0.1 mm, the same in all directions near the equator.
 AnalyticRelief Level(std::function<double(glm::dvec2)> relief = [](glm::dvec2) { return kLevel; }) {
   AnalyticRelief made = AnalyticRelief::Make(ProjectionType::kEquirectangular, std::move(relief));
-  made.width = made.height = kSide;
+  made.width = made.height = kMapSide;
   made.backdrop.radius = kSphere;
-  made.backdrop.projection.centre_px = {(kSide - 1) / 2.0, (kSide - 1) / 2.0};
+  made.backdrop.projection.centre_px = {(kMapSide - 1) / 2.0, (kMapSide - 1) / 2.0};
   made.backdrop.projection.px_per_deg = 460 * kRadianPerDegree;
   return made;
 }
@@ -42,7 +42,7 @@ constexpr double kPxPerM = 460 / (kSphere - kLevel);  // on the level surface
 DepthMap Noise(double sigma, double correlation_px, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<float> normal;
-  DepthMap noise(kSide, kSide);
+  DepthMap noise(kMapSide, kMapSide);
   for (float& h : noise.relief) h = normal(random);
   double gain = 1.0;
   if (correlation_px > 0.0) {
@@ -58,13 +58,13 @@ DepthMap Noise(double sigma, double correlation_px, unsigned seed) {
     gain = squares;  // in both directions, by the unnormalised kernel
     for (const bool is_across : {true, false}) {
       const DepthMap before = noise;
-      for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
+      for (int y = 0; y < kMapSide; ++y)
+        for (int x = 0; x < kMapSide; ++x) {
           float value = 0;
           for (int k = -half; k <= half; ++k)
             value += kernel[static_cast<std::size_t>(k + half)] *
-                     before.at(is_across ? (x + k + kSide) % kSide : x,
-                               is_across ? y : (y + k + kSide) % kSide);
+                     before.at(is_across ? (x + k + kMapSide) % kMapSide : x,
+                               is_across ? y : (y + k + kMapSide) % kMapSide);
           noise.at(x, y) = value;
         }
     }
@@ -88,11 +88,11 @@ Left LeftOf(const TouchedRelief& touched, const DepthMap& truth, int margin) {
   double squares = 0, slopes = 0;
   int count = 0;
   const auto off = [&](int x, int y) {
-    const std::size_t i = static_cast<std::size_t>(y * kSide + x);
+    const std::size_t i = static_cast<std::size_t>(y * kMapSide + x);
     return static_cast<double>(touched.height[i] - truth.relief[i]);
   };
-  for (int y = margin; y < kSide - margin; ++y)
-    for (int x = margin; x < kSide - margin; ++x) {
+  for (int y = margin; y < kMapSide - margin; ++y)
+    for (int x = margin; x < kMapSide - margin; ++x) {
       const double e = off(x, y), du = 0.5 * (off(x + 1, y) - off(x - 1, y)),
                    dv = 0.5 * (off(x, y + 1) - off(x, y - 1));
       squares += e * e;
@@ -105,7 +105,7 @@ Left LeftOf(const TouchedRelief& touched, const DepthMap& truth, int margin) {
   return left;
 }
 
-constexpr double kSigma = 3e-4;  // m
+constexpr double kNoise = 3e-4;  // m
 // Standard deviation of the smoothing in pixels, with the two usual passes of ½ px² each.
 double SmoothingPx(double sigma) {
   const double s = sigma / (2 * std::numbers::sqrt2 * NoiseLimits{}.slope) * kPxPerM;
@@ -114,48 +114,49 @@ double SmoothingPx(double sigma) {
 
 TEST(ReliefSmoothing, LeavesOfNoiseWhatTheFormulaSaysAndBoundsItsSlope) {
   const AnalyticRelief level = Level();
-  const DepthMap truth = level.Float(), sigma(kSide, kSide, static_cast<float>(kSigma));
-  const double s = SmoothingPx(kSigma);
+  const DepthMap truth = level.Float(), sigma(kMapSide, kMapSide, static_cast<float>(kNoise));
+  const double s = SmoothingPx(kNoise);
   for (const double correlation : {0.0, 1.0, s / 5, s, 2 * s}) {
-    const TouchedRelief touched = SmoothRelief(Sum(truth, Noise(kSigma, correlation, 11)), 2, sigma,
+    const TouchedRelief touched = SmoothRelief(Sum(truth, Noise(kNoise, correlation, 11)), 2, sigma,
                                                level.backdrop, NoiseLimits{});
     const Left left = LeftOf(touched, truth, 48);
     const double l2 = correlation * correlation, t2 = s * s;
-    const double rms = correlation > 0 ? kSigma * correlation / std::sqrt(l2 + t2)
-                                       : kSigma / (2 * std::sqrt(std::numbers::pi) * s);
-    const double slope = (correlation > 0 ? kSigma * correlation / (std::numbers::sqrt2 * (l2 + t2))
-                                          : kSigma / (std::sqrt(8 * std::numbers::pi) * t2)) *
+    const double rms = correlation > 0 ? kNoise * correlation / std::sqrt(l2 + t2)
+                                       : kNoise / (2 * std::sqrt(std::numbers::pi) * s);
+    const double slope = (correlation > 0 ? kNoise * correlation / (std::numbers::sqrt2 * (l2 + t2))
+                                          : kNoise / (std::sqrt(8 * std::numbers::pi) * t2)) *
                          kPxPerM;
     // Independent patches of the map: the rms of the sample is uncertain by 1/√(2 patches); four of
     // these, and 5 % for the pixels, the gaps of the filter, and growths that noise stops.
-    const double patches = (kSide - 96.0) * (kSide - 96.0) / (4 * std::numbers::pi * (l2 + t2));
+    const double patches =
+        (kMapSide - 96.0) * (kMapSide - 96.0) / (4 * std::numbers::pi * (l2 + t2));
     const double tolerance = 0.05 + 4 / std::sqrt(2 * patches);
     std::printf("noise over %4.1f px: left %.1f µm (%.1f), slope %.4f (%.4f), most %.2f σ\n",
-                correlation, 1e6 * left.rms, 1e6 * rms, left.slope, slope, left.most / kSigma);
+                correlation, 1e6 * left.rms, 1e6 * rms, left.slope, slope, left.most / kNoise);
     EXPECT_NEAR(left.rms / rms, 1.0, tolerance) << correlation;
     EXPECT_NEAR(left.slope / slope, 1.0, tolerance) << correlation;
     EXPECT_LT(left.slope, NoiseLimits{}.slope * (1 + tolerance)) << correlation;
     // Five standard deviations of what is left: 5 ℓ/√(ℓ² + s²) < 1.
     if (correlation <= s / 5) {
-      EXPECT_LT(left.most, kSigma) << "no bump is higher than its standard error";
+      EXPECT_LT(left.most, kNoise) << "no bump is higher than its standard error";
     }
   }
 }
 
 // A bump of the width w keeps w²/(w² + s²) of its height.
 TEST(ReliefSmoothing, FlattensABumpThatTheErrorExplains) {
-  const double s = SmoothingPx(kSigma), width = s / 3;
-  const DepthMap sigma(kSide, kSide, static_cast<float>(kSigma));
-  for (const double height : {0.5 * kSigma, kSigma, 2 * kSigma}) {
+  const double s = SmoothingPx(kNoise), width = s / 3;
+  const DepthMap sigma(kMapSide, kMapSide, static_cast<float>(kNoise));
+  for (const double height : {0.5 * kNoise, kNoise, 2 * kNoise}) {
     const AnalyticRelief bump = Level([=](glm::dvec2 p) {
       const glm::dvec2 d = p - glm::dvec2(256, 256);
       return kLevel + height * std::exp(-0.5 * glm::dot(d, d) / (width * width));
     });
     const TouchedRelief touched =
         SmoothRelief(bump.Float(), 2, sigma, bump.backdrop, NoiseLimits{});
-    const double left = static_cast<double>(touched.height[256 * kSide + 256]) - kLevel;
-    std::printf("bump of %.1f σ: %.3f σ left\n", height / kSigma, left / kSigma);
-    EXPECT_LT(left, kSigma);
+    const double left = static_cast<double>(touched.height[256 * kMapSide + 256]) - kLevel;
+    std::printf("bump of %.1f σ: %.3f σ left\n", height / kNoise, left / kNoise);
+    EXPECT_LT(left, kNoise);
     EXPECT_NEAR(left / height, 1.0 / 10, 0.02);
   }
 }
@@ -163,17 +164,17 @@ TEST(ReliefSmoothing, FlattensABumpThatTheErrorExplains) {
 TEST(ReliefSmoothing, KeepsAStepThatTheErrorDoesNotExplain) {
   constexpr double kHigh = 0.012;  // m
   const AnalyticRelief step = Level([](glm::dvec2 p) { return p.x < 256 ? 0.0 : kHigh; });
-  const DepthMap truth = step.Float(), sigma(kSide, kSide, static_cast<float>(kSigma));
+  const DepthMap truth = step.Float(), sigma(kMapSide, kMapSide, static_cast<float>(kNoise));
   const TouchedRelief touched =
-      SmoothRelief(Sum(truth, Noise(kSigma, 1.0, 3)), 2, sigma, step.backdrop, NoiseLimits{});
+      SmoothRelief(Sum(truth, Noise(kNoise, 1.0, 3)), 2, sigma, step.backdrop, NoiseLimits{});
   // A growth stops where it changes the relief by 1.5 σ; so do all that came before it together,
   // within the 1 px of the usual smoothing beside the edge.
   for (int y = 100; y < 400; y += 7)
     for (int x = 100; x < 412; ++x) {
       if (std::abs(x - 255.5) < 4) continue;
       const double off = static_cast<double>(
-          touched.height[static_cast<std::size_t>(y * kSide + x)] - truth.at(x, y));
-      EXPECT_LT(std::abs(off), 3 * kSigma) << x << ' ' << y;
+          touched.height[static_cast<std::size_t>(y * kMapSide + x)] - truth.at(x, y));
+      EXPECT_LT(std::abs(off), 3 * kNoise) << x << ' ' << y;
     }
 }
 
@@ -182,17 +183,17 @@ TEST(ReliefSmoothing, KeepsAStepThatTheErrorDoesNotExplain) {
 TEST(ReliefSmoothing, BoundsTheSlopeOfNoiseBesideAStepToo) {
   constexpr double kHigh = 0.012;  // m
   const AnalyticRelief step = Level([](glm::dvec2 p) { return p.x < 256 ? 0.0 : kHigh; });
-  const DepthMap sigma(kSide, kSide, static_cast<float>(kSigma));
+  const DepthMap sigma(kMapSide, kMapSide, static_cast<float>(kNoise));
   for (const double correlation : {2.0, 8.0}) {
-    const TouchedRelief touched = SmoothRelief(Sum(step.Float(), Noise(kSigma, correlation, 3)), 2,
+    const TouchedRelief touched = SmoothRelief(Sum(step.Float(), Noise(kNoise, correlation, 3)), 2,
                                                sigma, step.backdrop, NoiseLimits{});
     const auto at = [&](int x, int y) {
-      return static_cast<double>(touched.height[static_cast<std::size_t>(y * kSide + x)]);
+      return static_cast<double>(touched.height[static_cast<std::size_t>(y * kMapSide + x)]);
     };
     for (const auto& [first, last] : {std::pair{240, 250}, std::pair{262, 272}}) {
       double squares = 0;
       int count = 0;
-      for (int y = 64; y < kSide - 64; ++y)
+      for (int y = 64; y < kMapSide - 64; ++y)
         for (int x = first; x < last; ++x, ++count) {
           const double du = 0.5 * (at(x + 1, y) - at(x - 1, y)),
                        dv = 0.5 * (at(x, y + 1) - at(x, y - 1));
@@ -215,18 +216,18 @@ TEST(ReliefSmoothing, IsExactOnAPlaneAlsoBesideHolesAndBorders) {
   DepthMap map = plane.Float();
   for (int y = 200; y < 280; ++y)
     for (int x = 240; x < 300; ++x) map.at(x, y) = std::numeric_limits<float>::quiet_NaN();
-  DepthMap sigma(kSide, kSide, 2e-4f);
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 300; x < kSide; ++x) sigma.at(x, y) = 2e-3f;
+  DepthMap sigma(kMapSide, kMapSide, 2e-4f);
+  for (int y = 0; y < kMapSide; ++y)
+    for (int x = 300; x < kMapSide; ++x) sigma.at(x, y) = 2e-3f;
   const TouchedRelief touched = SmoothRelief(map, 2, sigma, plane.backdrop, NoiseLimits{});
   double worst = 0;
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < kMapSide; ++y)
+    for (int x = 0; x < kMapSide; ++x) {
       if (std::isnan(map.at(x, y))) continue;
       // The usual passes are not exact within their reach of two pixels beside unknown ones.
       worst = std::max(
           worst, std::abs(static_cast<double>(
-                     touched.height[static_cast<std::size_t>(y * kSide + x)] - map.at(x, y))));
+                     touched.height[static_cast<std::size_t>(y * kMapSide + x)] - map.at(x, y))));
     }
   std::printf("plane: off by %.2f µm at worst\n", 1e6 * worst);
   // One pixel of the plane's slope.
@@ -263,7 +264,7 @@ TEST(DepthFieldWithError, LowersTheStiffnessByItsStandardError) {
   const DepthFieldOptions of_field;
   for (const double error : {0.0, 2e-4, 1e-3, 3e-3}) {
     const DepthField field(level.backdrop, level.Float(), of_field,
-                           DepthMap(kSide, kSide, static_cast<float>(error)));
+                           DepthMap(kMapSide, kMapSide, static_cast<float>(error)));
     ContactState state;
     constexpr double kDepth = 1e-3;  // m below the surface
     const glm::dvec3 ray = DirectionFromPixel(level.backdrop.projection, {256, 256});
@@ -284,7 +285,7 @@ TEST(DepthFieldWithError, AnUnknownDepthIsNoContactAndNeverARelief) {
   DepthMap map = level.Float();
   for (int y = 200; y < 300; ++y)
     for (int x = 200; x < 300; ++x) map.at(x, y) = std::numeric_limits<float>::quiet_NaN();
-  const DepthField field(level.backdrop, map, {}, DepthMap(kSide, kSide, 2e-3f));
+  const DepthField field(level.backdrop, map, {}, DepthMap(kMapSide, kMapSide, 2e-3f));
   for (double x = 180; x < 320; x += 0.5)
     for (const double radius : {0.046, 0.0499, 0.0501, 0.06}) {
       const FieldQuery query =
@@ -301,9 +302,9 @@ TEST(DepthFieldWithError, AnUnknownDepthIsNoContactAndNeverARelief) {
 // The stiffness changes by less than one part in twenty per pixel where the error jumps.
 TEST(DepthFieldWithError, StiffnessChangesGradually) {
   const AnalyticRelief level = Level();
-  DepthMap sigma(kSide, kSide, 2e-4f);
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 256; x < kSide; ++x) sigma.at(x, y) = 3e-3f;
+  DepthMap sigma(kMapSide, kMapSide, 2e-4f);
+  for (int y = 0; y < kMapSide; ++y)
+    for (int x = 256; x < kMapSide; ++x) sigma.at(x, y) = 3e-3f;
   const DepthField field(level.backdrop, level.Float(), {}, sigma);
   double last = -1;
   for (double x = 200; x < 312; x += 0.1) {

@@ -8,11 +8,13 @@
 
 #include "simulation/haptics/contact.h"
 #include "tests/support/shapes.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kStiffness = 500.0, kTick = 0.001;
+using test::kTick;
+constexpr double kSpring = 500.0;
 
 ContactOptions Bare(double tip_radius = 0.0) {
   ContactOptions options;
@@ -129,10 +131,10 @@ TEST(MeshContact, BallPushesAlongItsRadius) {
       const double depth = 1e-3 + 4e-4 * std::sin(9 * t);
       const glm::dvec3 tip = centre + (big + r - depth) * out;
       const ContactForce contact =
-          TickContact({DepthField(), meshes}, Bare(r), kStiffness, {}, tip, kTick, state);
+          TickContact({DepthField(), meshes}, Bare(r), kSpring, {}, tip, kTick, state);
       if (i < 100) continue;  // the tip comes from the portal, not along the radius
       ASSERT_EQ(contact.contact, 1);
-      const glm::dvec3 reference = kStiffness * depth * out;
+      const glm::dvec3 reference = kSpring * depth * out;
       worst_force = std::max(worst_force, glm::length(contact.force) / glm::length(reference) - 1);
       worst_angle = std::max(
           worst_angle, std::acos(std::min(1.0, glm::dot(glm::normalize(contact.force), out))));
@@ -155,10 +157,10 @@ TEST(MeshContact, CornerOfARoomHoldsWithThreeFaces) {
   ContactForce contact;
   for (int i = 0; i < 200; ++i) {
     const glm::dvec3 tip = (half - r + depth) * std::min(1.0, i / 100.0);
-    contact = TickContact({DepthField(), room}, Bare(r), kStiffness, {}, tip, kTick, state);
+    contact = TickContact({DepthField(), room}, Bare(r), kSpring, {}, tip, kTick, state);
   }
   // The skin is 1 µm: 0.5 mN per face.
-  EXPECT_LT(glm::length(contact.force + kStiffness * depth), 1e-3);
+  EXPECT_LT(glm::length(contact.force + kSpring * depth), 1e-3);
   EXPECT_LT(glm::length(state.proxy.position - (half - r)), 3e-6);
   EXPECT_NEAR(contact.penetration, glm::length(depth), 3e-6);
 }
@@ -169,17 +171,17 @@ TEST(MeshContact, SlidesAlongAnEdgeOfARoomAndLeavesIt) {
       SurfaceBvh(test::InsideOut(test::Box(glm::dvec3(-0.01), glm::dvec3(0.01))), {})};
   ContactState state;
   for (int i = 0; i < 100; ++i)
-    TickContact({DepthField(), room}, Bare(), kStiffness, {},
-                glm::dvec3(0.011, 0.011, 0) * (i / 99.0), kTick, state);
+    TickContact({DepthField(), room}, Bare(), kSpring, {}, glm::dvec3(0.011, 0.011, 0) * (i / 99.0),
+                kTick, state);
   for (int i = 0; i <= 100; ++i) {
     const double z = 0.008 * i / 100;
     const ContactForce contact =
-        TickContact({DepthField(), room}, Bare(), kStiffness, {}, {0.011, 0.011, z}, kTick, state);
+        TickContact({DepthField(), room}, Bare(), kSpring, {}, {0.011, 0.011, z}, kTick, state);
     EXPECT_NEAR(state.proxy.position.z, z, 1e-7);
     EXPECT_LT(glm::length(contact.force - glm::dvec3(-0.5, -0.5, 0)), 2e-3);
   }
-  const ContactForce free = TickContact({DepthField(), room}, Bare(), kStiffness, {},
-                                        {0.005, 0.005, 0.008}, kTick, state);
+  const ContactForce free =
+      TickContact({DepthField(), room}, Bare(), kSpring, {}, {0.005, 0.005, 0.008}, kTick, state);
   EXPECT_EQ(free.contact, -1);
   EXPECT_EQ(free.force, glm::dvec3(0.0));
   EXPECT_LT(glm::length(state.proxy.position - glm::dvec3(0.005, 0.005, 0.008)), 1e-7);
@@ -200,7 +202,7 @@ TEST(MeshContact, NothingTunnels) {
       if (i % 50 == 0)
         goal = glm::dvec3(0.006 + 1.5 * any(random), any(random), 0.03 + any(random));
       tip += 0.05 * (goal - tip);
-      TickContact({DepthField(), boxes}, Bare(r), kStiffness, {}, tip, kTick, state);
+      TickContact({DepthField(), boxes}, Bare(r), kSpring, {}, tip, kTick, state);
       const glm::dvec3 p = state.proxy.position - glm::dvec3(0, 0, 0.03);
       const double inside = size - std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
       ASSERT_LT(inside, 1e-9) << i;

@@ -6,10 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/ticks.h"
+
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTick = 1e-3, kPeak = 3.3;
+using test::kTick;
+constexpr double kPeak = 3.3;
 
 TEST(Thermal, AllowsThePeakForABurstAndTheContinuousForceForALongPush) {
   const ThermalOptions options{0.88};

@@ -12,17 +12,19 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "simulation/core/units.h"
 #include "simulation/practice/living_tissues.h"
 #include "simulation/practice/replay/replay.h"
 #include "simulation/practice/scripted_device.h"
 #include "simulation/scene/files/scene_io.h"
 #include "tests/support/build_paths.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kMm = 1e-3, kTick = 1e-3;  // m, s
-constexpr int kMeniscus = 1;                // contact index of the first tissue of the scene
+using test::kTick;
+constexpr int kMeniscus = 1;  // contact index of the first tissue of the scene
 // N; upper limit of the force of surgeons (PMC3023859).
 constexpr double kSafe = 8.5;
 

@@ -23,7 +23,7 @@ constexpr double kBall = 0.005, kSpacing = 0.35e-3;  // m
 const glm::dvec3 kCentre(0, 0, 0.04);
 
 // A loose body, a ball of 5 mm: as a fine mesh, and as a field sampled at 0.35 mm.
-LoadedScene MakeScene() {
+LoadedScene BallScene() {
   Tissue tissue;
   tissue.name = "loose body";
   tissue.pose.position = kCentre;
@@ -36,7 +36,7 @@ std::shared_ptr<ImplicitTissue> MakeField(const LoadedScene& loaded) {
 }
 
 TEST(FieldTissue, GivesTheForceOfTheSampledBall) {
-  const LoadedScene loaded = MakeScene();
+  const LoadedScene loaded = BallScene();
   Hand hand(loaded);
   hand.session.SetField(0, MakeField(loaded));
   double worst = 0, worst_turn = 0;
@@ -63,7 +63,7 @@ TEST(FieldTissue, GivesTheForceOfTheSampledBall) {
 TEST(FieldTissue, AToolThatAppearsBehindAThinFlapIsHeldInFrontOfIt) {
   // A flap of 1 mm. (Around a ball the proxy would slide: beyond the centre, its near side is no
   // minimum.)
-  LoadedScene loaded = MakeScene();
+  LoadedScene loaded = BallScene();
   loaded.surfaces[0] = Share(test::Box({-5e-3, -5e-3, -5e-4}, {5e-3, 5e-3, 5e-4}));
   Hand hand(loaded);
   hand.session.SetField(0, MakeField(loaded));
@@ -75,7 +75,7 @@ TEST(FieldTissue, AToolThatAppearsBehindAThinFlapIsHeldInFrontOfIt) {
 }
 
 TEST(FieldTissue, RemovedTissueGivesNoForce) {
-  const LoadedScene loaded = MakeScene();
+  const LoadedScene loaded = BallScene();
   Hand hand(loaded);
   const auto whole = MakeField(loaded);
   hand.session.SetField(0, whole);
@@ -101,7 +101,7 @@ TEST(FieldTissue, RemovedTissueGivesNoForce) {
 }
 
 TEST(FieldTissue, IsSampledFromTheSurfaceOfAnImplicitTissue) {
-  LoadedScene loaded = MakeScene();
+  LoadedScene loaded = BallScene();
   loaded.scene.tissues[0].pose.scale = 0.5;
   Hand given(loaded);
   auto field = SolidField::FromSurface(*loaded.surfaces[0], kSpacing / 0.5);
@@ -121,7 +121,7 @@ TEST(FieldTissue, IsSampledFromTheSurfaceOfAnImplicitTissue) {
 }
 
 TEST(FieldTissue, AServoTickInContactAllocatesNothing) {
-  const LoadedScene loaded = MakeScene();
+  const LoadedScene loaded = BallScene();
   Hand hand(loaded);
   hand.session.SetField(0, MakeField(loaded));
   hand.Lead({0, 0, 0.0355});
@@ -135,7 +135,7 @@ TEST(FieldTissue, AServoTickInContactAllocatesNothing) {
 
 // The same ball as a deformable implicit tissue of the scene.
 LoadedScene MakeImplicit() {
-  LoadedScene loaded = MakeScene();
+  LoadedScene loaded = BallScene();
   loaded.scene.tissues[0].is_implicit = true;
   return loaded;
 }

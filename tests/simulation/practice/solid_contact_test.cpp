@@ -15,8 +15,8 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kBall = 0.005;  // m
-const glm::dvec3 kCentre(0, 0, 0.04);
+constexpr double kBallRadius = 0.005;  // m
+const glm::dvec3 kSolidCentre(0, 0, 0.04);
 
 class SolidContact : public testing::Test {
  protected:
@@ -25,7 +25,7 @@ class SolidContact : public testing::Test {
     tissue.name = "solid";
     tissue.surface = "s.solid";
     tissue.is_implicit = true;
-    tissue.pose.position = kCentre;
+    tissue.pose.position = kSolidCentre;
     tissue.pose.scale = scale;
     WriteSolid(folder / "s.solid", solid);
     LoadedScene loaded = SceneOf(SurfaceOfSolid(solid), tissue);
@@ -38,18 +38,18 @@ class SolidContact : public testing::Test {
 
 TEST_F(SolidContact, ForceIsThatOfTheClosedForm) {
   // Twice as large by the pose of the tissue.
-  Hand hand(MakeScene(Ball(0.5 * kBall), 2.0));
+  Hand hand(MakeScene(Ball(0.5 * kBallRadius), 2.0));
   for (const double x : {0.0, 1e-3, -2.5e-3})
     for (const double depth : {0.2e-3, 1e-3}) {
       hand.Lead({x, 0, 0.03});
-      const glm::dvec3 out = glm::normalize(glm::dvec3(x, 0.2 * x, -kBall));
-      const ToolState& tool = hand.Lead(kCentre + (kBall - depth) * out);
+      const glm::dvec3 out = glm::normalize(glm::dvec3(x, 0.2 * x, -kBallRadius));
+      const ToolState& tool = hand.Lead(kSolidCentre + (kBallRadius - depth) * out);
       EXPECT_EQ(tool.contact, 1);
       // The proxy keeps kSkin; no sampling adds to it.
       EXPECT_NEAR(glm::length(tool.tip_force), kSpring * depth, kSpring * kSkin);
       // The force lies within the friction cone about the normal at the proxy, which stands
       // beside the radius through the tip: sine rule in the triangle of centre, tip and proxy.
-      const double turn = 0.03 * (1 + depth / (kBall - depth));
+      const double turn = 0.03 * (1 + depth / (kBallRadius - depth));
       EXPECT_GT(glm::dot(glm::normalize(tool.tip_force), out), std::cos(turn)) << "friction cone";
     }
 }
@@ -60,7 +60,7 @@ TEST_F(SolidContact, NeitherToolEntersASolid) {
   const SolidFunction function(ring);
   hand.Lead({4e-3, 0, 0.03});
   hand.Lead({4e-3, 0, 0.04});
-  EXPECT_GE(function.Value(hand.session.snapshot().instrument.proxy_in_portal - kCentre), 0);
+  EXPECT_GE(function.Value(hand.session.snapshot().instrument.proxy_in_portal - kSolidCentre), 0);
   hand.instrument.Set({0, 0, 0, 0.01});
   hand.scope.Set({0, std::atan2(4e-3, 0.0391), 0, 0.03});
   hand.Tick(300);
@@ -68,7 +68,7 @@ TEST_F(SolidContact, NeitherToolEntersASolid) {
   hand.Tick(300);
   const ToolState& scope = hand.session.snapshot().scope;
   EXPECT_EQ(scope.contact, 1);
-  EXPECT_GE(function.Value(scope.proxy_in_portal - kCentre), 0) << "where its camera stands";
+  EXPECT_GE(function.Value(scope.proxy_in_portal - kSolidCentre), 0) << "where its camera stands";
 }
 
 TEST_F(SolidContact, AToolPassesThroughTheHoleOfARing) {
@@ -81,9 +81,9 @@ TEST_F(SolidContact, AServoTickAllocatesNothing) {
   SolidPlace blended;
   blended.join = SolidJoin::kDifference;
   blended.blend = 1e-3;
-  blended.solid_from_part.translation = {0, 0, -kBall};
-  Hand hand(
-      MakeScene({{EllipsoidPart{{}, {kBall, 4e-3, kBall}}, CapsulePart{blended, 2e-3, 1e-3}}}));
+  blended.solid_from_part.translation = {0, 0, -kBallRadius};
+  Hand hand(MakeScene(
+      {{EllipsoidPart{{}, {kBallRadius, 4e-3, kBallRadius}}, CapsulePart{blended, 2e-3, 1e-3}}}));
   hand.Lead({0, 0, 0.0355});
   const long before = test::Allocations();
   for (int i = 0; i < 1000; ++i) {
@@ -94,11 +94,11 @@ TEST_F(SolidContact, AServoTickAllocatesNothing) {
 }
 
 TEST_F(SolidContact, AShaverRemovesOfItAndRestoringBringsTheFunctionBack) {
-  Hand hand(MakeScene(Ball(kBall)));
+  Hand hand(MakeScene(Ball(kBallRadius)));
   hand.session.Enliven({}, TissuePace::kInline);
   ASSERT_NE(hand.session.tissues(), nullptr);
-  const glm::dvec3 above = kCentre - glm::dvec3(0, 0, kBall + 5e-3);
-  const glm::dvec3 deep = kCentre - glm::dvec3(0, 0, kBall - 1e-3);
+  const glm::dvec3 above = kSolidCentre - glm::dvec3(0, 0, kBallRadius + 5e-3);
+  const glm::dvec3 deep = kSolidCentre - glm::dvec3(0, 0, kBallRadius - 1e-3);
   const auto force = [&] {
     hand.Lead(above);
     return glm::length(hand.Lead(deep).tip_force);
@@ -122,7 +122,7 @@ TEST_F(SolidContact, AShaverRemovesOfItAndRestoringBringsTheFunctionBack) {
 }
 
 TEST_F(SolidContact, AFileThatIsGoneIsNamed) {
-  const LoadedScene loaded = MakeScene(Ball(kBall));
+  const LoadedScene loaded = MakeScene(Ball(kBallRadius));
   std::filesystem::remove(folder / "s.solid");
   try {
     Hand hand(loaded);

@@ -21,15 +21,15 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTip = 2.25e-3;  // m, round end of the shaver, which is in contact
-constexpr double kFace = 0.036;   // m, front of the tissue on the path of the instrument
+constexpr double kTip = 2.25e-3;      // m, round end of the shaver, which is in contact
+constexpr double kLayerFace = 0.036;  // m, front of the tissue on the path of the instrument
 
 // Scene with one tissue on the axis of the instrument.
-LoadedScene MakeScene(const SurfaceMesh& surface, double scale = 1.0) {
+LoadedScene LayerScene(const SurfaceMesh& surface, double scale = 1.0) {
   Tissue tissue;
   tissue.name = "plateau";
   tissue.material = "cartilage";
-  tissue.pose.position = {0, 0, kFace + 0.01};
+  tissue.pose.position = {0, 0, kLayerFace + 0.01};
   tissue.pose.scale = scale;
   return SceneOf(surface, tissue);
 }
@@ -47,13 +47,13 @@ struct LayerHand : Hand {
   }
   // Moves along the axis to a depth below the face, and holds.
   const ToolState& Press(double depth, int hold = 400) {
-    return Lead({0, 0, kFace + depth}, 400, hold);
+    return Lead({0, 0, kLayerFace + depth}, 400, hold);
   }
   std::vector<LayerSpec> layers;
 };
 
 TEST(ThinLayer, GivesTheForceOfTheSpringInSeriesWithItsClosedForm) {
-  LayerHand hand(MakeScene(Block()));
+  LayerHand hand(LayerScene(Block()));
   ASSERT_EQ(hand.layers.size(), 1u);
   hand.session.SetInstrument(ToolKind::kShaver);
   const ElasticLayer& layer = hand.layers[0].layer;
@@ -75,7 +75,7 @@ TEST(ThinLayer, GivesTheForceOfTheSpringInSeriesWithItsClosedForm) {
     worst = std::max(worst, std::abs(-tool.tip_force.z - force));
     EXPECT_NEAR(-tool.tip_force.z, force, 1e-5) << depth;
     EXPECT_NEAR(tool.penetration, depth, 1e-8);
-    EXPECT_NEAR(tool.proxy_in_portal.z, kFace + low, 1e-8) << "the tool is drawn in the layer";
+    EXPECT_NEAR(tool.proxy_in_portal.z, kLayerFace + low, 1e-8) << "the tool is drawn in the layer";
     EXPECT_EQ(tool.contact, 1);
     EXPECT_EQ(tool.layer, 0);
     EXPECT_EQ(tool.fault, Fault::kNone);
@@ -92,7 +92,7 @@ TEST(ThinLayer, GivesTheForceOfTheSpringInSeriesWithItsClosedForm) {
 TEST(ThinLayer, WithAWallBehindItTheSpringForceIsCountedOnce) {
   // The far corner of the slab is 1 mm in front of the backdrop; the tip passes its edge onto the
   // wall while the rod lies on the slab.
-  LoadedScene loaded = MakeScene(test::Box({-0.02, 0.001, -0.02}, {0.02, 0.02, 0.0}));
+  LoadedScene loaded = LayerScene(test::Box({-0.02, 0.001, -0.02}, {0.02, 0.02, 0.0}));
   loaded.scene.backdrop.radius = 0.05;
   LayerHand hand(loaded);
   hand.session.SetInstrument(ToolKind::kShaver);
@@ -159,7 +159,7 @@ TEST(ThinLayer, DoesNotPressTheScopeAgainstTheBackdropBehindItsEdge) {
 }
 
 TEST(ThinLayer, IsNeverStifferThanTheSpringFromTheFirstTouchOn) {
-  LayerHand hand(MakeScene(Block()));
+  LayerHand hand(LayerScene(Block()));
   hand.Press(-0.05e-3);
   constexpr double kStep = 1e-6;  // m per tick: 1 mm/s
   double last = 0, largest = 0;
@@ -179,7 +179,7 @@ TEST(ThinLayer, IsNeverStifferThanTheSpringFromTheFirstTouchOn) {
 
 TEST(ThinLayer, ALayerDoesNotChangeTheForceOfAnotherTissue) {
   // Block 1 is a layer, block 2 beside it is not; pressing 2 gives the same bits.
-  LoadedScene loaded = MakeScene(Block());
+  LoadedScene loaded = LayerScene(Block());
   loaded.scene.tissues.push_back(loaded.scene.tissues[0]);
   loaded.scene.tissues[0].pose.position.x += 0.05;
   loaded.scene.tissues[1].material = "no preset has this name";
@@ -188,7 +188,8 @@ TEST(ThinLayer, ALayerDoesNotChangeTheForceOfAnotherTissue) {
   ASSERT_EQ(with.layers.size(), 1u);
   for (int i = 0; i < 1500; ++i) {
     const double s = i * kTick;
-    const RodPose pose{0.03 * std::sin(5 * s), 0.03 * std::sin(7 * s), s, kFace - 5e-4 + 1e-3 * s};
+    const RodPose pose{0.03 * std::sin(5 * s), 0.03 * std::sin(7 * s), s,
+                       kLayerFace - 5e-4 + 1e-3 * s};
     with.instrument.Set(pose);
     without.instrument.Set(pose);
     const ToolState &a = with.Tick(), &b = without.Tick();
@@ -201,8 +202,8 @@ TEST(ThinLayer, ALayerDoesNotChangeTheForceOfAnotherTissue) {
 
 TEST(ThinLayer, ACurvedLayerGivesNoJumpsAcrossItsTriangles) {
   // The tip slides over a condyle of 10 mm radius in facets of 0.5 mm, at a depth of 1 mm.
-  LayerHand soft(MakeScene(test::Sphere({0, 0, 0}, 0.01, 4)));
-  LayerHand rigid(MakeScene(test::Sphere({0, 0, 0}, 0.01, 4)), false);
+  LayerHand soft(LayerScene(test::Sphere({0, 0, 0}, 0.01, 4)));
+  LayerHand rigid(LayerScene(test::Sphere({0, 0, 0}, 0.01, 4)), false);
   double jump[2] = {0, 0};
   for (LayerHand* hand : {&soft, &rigid}) {
     hand->Press(1e-3);
@@ -221,7 +222,7 @@ TEST(ThinLayer, ACurvedLayerGivesNoJumpsAcrossItsTriangles) {
 }
 
 TEST(ThinLayer, AServoTickInContactAllocatesNothing) {
-  LayerHand hand(MakeScene(Block()));
+  LayerHand hand(LayerScene(Block()));
   hand.Press(0.5e-3);
   const long before = test::Allocations();
   for (int i = 0; i < 1000; ++i) {
@@ -233,7 +234,7 @@ TEST(ThinLayer, AServoTickInContactAllocatesNothing) {
 }
 
 TEST(ThinLayer, DentsUnderTheToolAndRecovers) {
-  const LoadedScene loaded = MakeScene(test::Sphere({0, 0, 0}, 0.005, 5), 2.0);
+  const LoadedScene loaded = LayerScene(test::Sphere({0, 0, 0}, 0.005, 5), 2.0);
   LayerHand hand(loaded);
   hand.session.SetInstrument(ToolKind::kShaver);
   const WorldPicture* world = hand.session.tissues();
@@ -249,7 +250,7 @@ TEST(ThinLayer, DentsUnderTheToolAndRecovers) {
   EXPECT_EQ(hand.session.tissues()->bodies[0].shape, shape) << "nothing touched, nothing computed";
 
   const ToolState tool = hand.Press(2e-3);
-  const double sink = tool.proxy_in_portal.z - kFace;
+  const double sink = tool.proxy_in_portal.z - kLayerFace;
   const BodyPicture pressed = hand.session.tissues()->bodies[0];
   EXPECT_FALSE(pressed.report.is_asleep);
   ASSERT_GT(sink, 2e-4);
@@ -296,7 +297,7 @@ TEST(ThinLayer, DentsUnderTheToolAndRecovers) {
 TEST(ThinLayer, NoPartOfAToolThatLiesOnItIsDrawnDeeperThanItsDent) {
   // A condyle of 10 mm beside the rod is pressed by shaft, frame or hook, far behind the tip.
   for (const ToolKind kind : {ToolKind::kPunch, ToolKind::kProbe, ToolKind::kShaver}) {
-    LoadedScene loaded = MakeScene(test::Sphere({0, 0, 0}, 0.01, 5));
+    LoadedScene loaded = LayerScene(test::Sphere({0, 0, 0}, 0.01, 5));
     loaded.scene.tissues[0].pose.position = {0, 0.0105, 0.032};
     LayerHand hand(loaded);
     hand.session.SetInstrument(kind);
@@ -337,7 +338,7 @@ TEST(ThinLayer, NoPartOfAToolThatLiesOnItIsDrawnDeeperThanItsDent) {
 }
 
 TEST(ThinLayer, UsesTheValuesThatTheSceneOverrides) {
-  LoadedScene loaded = MakeScene(Block());
+  LoadedScene loaded = LayerScene(Block());
   loaded.scene.tissues[0].elasticity.layer_thickness = 1e-3;
   loaded.scene.tissues[0].elasticity.young_modulus = 3e6;
   const auto thin = LayersOf(loaded, Presets());

@@ -14,11 +14,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/simulation/tissue/body/meniscus_body.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTick = 0.001;
+using test::kTick;
 
 TissueWorld World(const BodySpec& spec) { return {{spec}, {}, nullptr, true}; }
 

@@ -10,11 +10,12 @@
 
 #include "simulation/practice/tissue_loop.h"
 #include "tests/simulation/tissue/body/slab_body.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTick = 1e-3;  // s
+using test::kTick;
 
 // Pushes to 2 mm and leaves again, once a second, while it goes to and fro.
 Instrumentation ProbeAt(const BodySpec& spec, double t) {

@@ -14,13 +14,13 @@ namespace {
 Projection Gnomonic() { return {ProjectionType::kGnomonic, {2048, 1024}, 1500, 0}; }
 Projection Equirectangular() { return {ProjectionType::kEquirectangular, {1000, 700}, 0, 10}; }
 
-glm::dvec3 Direction(double latitude_deg, double longitude_deg) {
+glm::dvec3 Towards(double latitude_deg, double longitude_deg) {
   const double phi = RadiansFromDegrees(latitude_deg), lambda = RadiansFromDegrees(longitude_deg);
   return {std::cos(phi) * std::sin(lambda), -std::sin(phi), std::cos(phi) * std::cos(lambda)};
 }
 
 TEST(Projection, EquirectangularIsLatitudeAndLongitude) {
-  const auto pixel = PixelFromDirection(Equirectangular(), Direction(20.0, -35.0));
+  const auto pixel = PixelFromDirection(Equirectangular(), Towards(20.0, -35.0));
   ASSERT_TRUE(pixel);
   EXPECT_NEAR(pixel->x, 1000 - 350, 1e-9);
   EXPECT_NEAR(pixel->y, 700 - 200, 1e-9);
@@ -77,7 +77,7 @@ TEST(Projection, DirectionAndPixelAreInverse) {
   for (const Projection& projection : {Gnomonic(), Equirectangular()})
     for (double latitude = -60; latitude <= 60; latitude += 15)
       for (double longitude = -75; longitude <= 75; longitude += 15) {
-        const glm::dvec3 direction = Direction(latitude, longitude);
+        const glm::dvec3 direction = Towards(latitude, longitude);
         const auto pixel = PixelFromDirection(projection, 0.03 * direction);
         ASSERT_TRUE(pixel);
         EXPECT_LT(glm::length(DirectionFromPixel(projection, *pixel) - direction), 1e-12);
@@ -88,7 +88,7 @@ TEST(Projection, GradientsAreDerivatives) {
   for (const Projection& projection : {Gnomonic(), Equirectangular()})
     for (double latitude : {-70.0, -10.0, 0.0, 42.0})
       for (double longitude : {-80.0, 5.0, 60.0}) {
-        const glm::dvec3 d = 0.04 * Direction(latitude, longitude);
+        const glm::dvec3 d = 0.04 * Towards(latitude, longitude);
         const glm::dmat2x3 gradients = PixelGradients(projection, d);
         constexpr double kStep = 1e-7;
         for (int axis = 0; axis < 3; ++axis) {
@@ -111,7 +111,7 @@ TEST(Projection, LongerGradientIsThatOfTheUnitDirection) {
   for (const Projection& projection : {Gnomonic(), rolled, Equirectangular()})
     for (double latitude : {-70.0, -10.0, 0.0, 42.0})
       for (double longitude : {-80.0, 5.0, 60.0}) {
-        const glm::dvec3 d = Direction(latitude, longitude);
+        const glm::dvec3 d = Towards(latitude, longitude);
         const glm::dmat2x3 gradients = PixelGradients(projection, d);
         const double longer = std::max(glm::length(gradients[0]), glm::length(gradients[1]));
         EXPECT_NEAR(LongerPixelGradient(projection, *PixelFromDirection(projection, d)), longer,

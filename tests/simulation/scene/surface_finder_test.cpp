@@ -8,12 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/random.h"
+#include "simulation/core/units.h"
 #include "tests/support/shapes.h"
 
 namespace arthro {
 namespace {
 
-constexpr double kMm = 1e-3;
 const glm::dvec3 kHalf = glm::dvec3(6, 4, 2) * kMm;
 
 TEST(SurfaceFinder, FindsTheNearestPointOfAllTriangles) {

@@ -15,15 +15,16 @@
 namespace arthro::simulation {
 namespace {
 
-const DeviceRig kRig{{0.012, -0.034, 0.11}, {1, 0, 0, 0}, 0.2};
+const DeviceRig kSetRig{{0.012, -0.034, 0.11}, {1, 0, 0, 0}, 0.2};
 const RodPose kPose{0.3, -0.2, 1.1, 0.05};
 
 // Makes a press of a hand that is displaced by `moved` at each time.
 PressAverage Pressed(const std::function<glm::dvec3(double)>& moved, double rate = 1000) {
-  PressAverage press(kRig.rod_length);
+  PressAverage press(kSetRig.rod_length);
   for (int i = 0; i < 1000; ++i) {
     const double t = 7.0 + i / rate;
-    if (press.Add(t, HipFromRodPose(kPose, kRig) + moved(t - 7.0), HandleFromRodPose(kPose, kRig)))
+    if (press.Add(t, HipFromRodPose(kPose, kSetRig) + moved(t - 7.0),
+                  HandleFromRodPose(kPose, kSetRig)))
       break;
   }
   return press;
@@ -34,8 +35,8 @@ TEST(PressAverage, ARestingHandGivesItsRodAtAnyRate) {
     const PressAverage press = Pressed([](double) { return glm::dvec3(0); }, rate);
     ASSERT_TRUE(press.press()) << press.refusal();
     EXPECT_EQ(press.done(), 1.0);
-    EXPECT_LT(glm::distance(press.press()->hip, HipFromRodPose(kPose, kRig)), 1e-15);
-    EXPECT_LT(glm::distance(press.press()->tip, kRig.pivot + TipInOwnPortal(kPose)), 1e-14);
+    EXPECT_LT(glm::distance(press.press()->hip, HipFromRodPose(kPose, kSetRig)), 1e-15);
+    EXPECT_LT(glm::distance(press.press()->tip, kSetRig.pivot + TipInOwnPortal(kPose)), 1e-14);
   }
 }
 
@@ -50,7 +51,7 @@ TEST(PressAverage, NoiseIsAveragedAway) {
   };
   const PressAverage press = Pressed(noise);
   ASSERT_TRUE(press.press()) << press.refusal();
-  EXPECT_LT(glm::distance(press.press()->hip, HipFromRodPose(kPose, kRig)), 0.025e-3 * 1.8);
+  EXPECT_LT(glm::distance(press.press()->hip, HipFromRodPose(kPose, kSetRig)), 0.025e-3 * 1.8);
 }
 
 // Uniform motion over a distance has a standard deviation of 1/√12 of it: 0.1 mm for 0.35 mm.
@@ -67,7 +68,7 @@ TEST(PressAverage, RefusesAHandThatMovesByMoreThanATenthOfAMillimetre) {
 }
 
 TEST(PressAverage, RefusesASilentOrRarelyReportingDevice) {
-  PressAverage press(kRig.rod_length);
+  PressAverage press(kSetRig.rod_length);
   EXPECT_FALSE(press.Add(0, {0, 0, 0}, {1, 0, 0, 0}));
   EXPECT_TRUE(press.Miss());
   EXPECT_FALSE(press.press());

@@ -30,7 +30,7 @@ namespace {
 constexpr double kStep = RadiansFromDegrees(0.1);
 constexpr double kRounding = 1e-9;  // rad, error of thousands of products of rotations
 
-DeviceRig TiltedRig() {
+DeviceRig RolledRig() {
   DeviceRig rig;
   rig.pivot = {0.01, -0.02, 0.15};
   rig.portal_from_device = glm::normalize(glm::dquat(0.9, 0.1, -0.3, 0.2));
@@ -40,7 +40,7 @@ DeviceRig TiltedRig() {
 
 // State of a hand on its device.
 struct Hand {
-  DeviceRig rig = TiltedRig();
+  DeviceRig rig = RolledRig();
   glm::dvec3 hip{0.0};
   glm::dquat handle{1, 0, 0, 0};
   RodPose pose;

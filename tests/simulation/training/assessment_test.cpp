@@ -11,8 +11,6 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
-
 // A sphere of 50 mm without tissue.
 LoadedScene BareSphere() {
   LoadedScene loaded;
@@ -32,8 +30,9 @@ std::vector<TraceRow> SwingAndPress(const LoadedScene& loaded) {
   std::vector<TraceRow> rows;
   for (int i = 0; i <= 10 * 250; ++i) {
     const double t = i / 250.0;
-    const double press = t > 8 ? std::sin(kTurn * (t - 8) / 4) : 0.0;
-    instrument.Set({0, t > 8 ? 0.0 : 0.3 * std::sin(kTurn * t / 4), 0, 0.02 + 0.0205 * press});
+    const double press = t > 8 ? std::sin(kRadianPerTurn * (t - 8) / 4) : 0.0;
+    instrument.Set(
+        {0, t > 8 ? 0.0 : 0.3 * std::sin(kRadianPerTurn * t / 4), 0, 0.02 + 0.0205 * press});
     rows.push_back({DeviceRole::kInstrument, instrument.Sample(t)});
   }
   return rows;

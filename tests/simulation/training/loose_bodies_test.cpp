@@ -10,7 +10,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kRadius = 2e-3;  // m, of a body
+constexpr double kBodyRadius = 2e-3;  // m, of a body
 
 // A bare sphere of 50 mm; below the middle a table of which the top is at y = 8 mm.
 LoadedScene JointWithTable() {
@@ -33,7 +33,7 @@ class LooseBodiesOnATable : public testing::Test {
     now.instrument.opening = 1;
   }
   LooseBodies Of(const glm::dvec3& place) const {
-    return {loaded, {{place, kRadius, false, true}}, relief};
+    return {loaded, {{place, kBodyRadius, false, true}}, relief};
   }
   void Ticks(LooseBodies& bodies, int count) {
     for (int i = 0; i < count; ++i) {
@@ -49,7 +49,7 @@ class LooseBodiesOnATable : public testing::Test {
 TEST_F(LooseBodiesOnATable, JawsThatCloseOnABodyCarryItAndDropIt) {
   const glm::dvec3 start(0.001, 0.006, 0.025);
   LooseBodies bodies = Of(start);
-  now.instrument.proxy_in_portal = start + glm::dvec3(0, -kRadius - 1e-3, 0);
+  now.instrument.proxy_in_portal = start + glm::dvec3(0, -kBodyRadius - 1e-3, 0);
   Ticks(bodies, 5);
   EXPECT_EQ(bodies.all()[0].place, start);
   now.instrument.opening = 0.2;
@@ -58,15 +58,15 @@ TEST_F(LooseBodiesOnATable, JawsThatCloseOnABodyCarryItAndDropIt) {
   now.instrument.proxy_in_portal.y -= 8e-3;
   Ticks(bodies, 1);
   EXPECT_LT(bodies.all()[0].place.y, start.y - 6e-3);
-  EXPECT_NEAR(glm::distance(bodies.all()[0].place, now.instrument.proxy_in_portal), kRadius + 1e-3,
-              1e-12);
+  EXPECT_NEAR(glm::distance(bodies.all()[0].place, now.instrument.proxy_in_portal),
+              kBodyRadius + 1e-3, 1e-12);
   now.instrument.opening = 1;
   const double height = bodies.all()[0].place.y;
   Ticks(bodies, 100);
   EXPECT_NEAR(bodies.all()[0].place.y, height + 0.1 * kSinkSpeed, 1e-6);
   Ticks(bodies, 1000);
   EXPECT_TRUE(bodies.all()[0].is_at_rest);
-  EXPECT_NEAR(bodies.all()[0].place.y, 0.008 - kRadius, 1e-5);
+  EXPECT_NEAR(bodies.all()[0].place.y, 0.008 - kBodyRadius, 1e-5);
   const glm::dvec3 rest = bodies.all()[0].place;
   Ticks(bodies, 100);
   EXPECT_EQ(bodies.all()[0].place, rest);
@@ -75,12 +75,12 @@ TEST_F(LooseBodiesOnATable, JawsThatCloseOnABodyCarryItAndDropIt) {
 TEST_F(LooseBodiesOnATable, JawsThatAreTooFarOrClosedBeforeTakeNothing) {
   const glm::dvec3 start(0.001, 0.006, 0.025);
   LooseBodies bodies = Of(start);
-  now.instrument.proxy_in_portal = start + glm::dvec3(0, -kRadius - 1.6e-3, 0);
+  now.instrument.proxy_in_portal = start + glm::dvec3(0, -kBodyRadius - 1.6e-3, 0);
   Ticks(bodies, 1);
   now.instrument.opening = 0;
   Ticks(bodies, 1);
   EXPECT_FALSE(bodies.all()[0].is_held) << "1.6 mm off";
-  now.instrument.proxy_in_portal = start + glm::dvec3(0, -kRadius, 0);
+  now.instrument.proxy_in_portal = start + glm::dvec3(0, -kBodyRadius, 0);
   Ticks(bodies, 10);
   EXPECT_FALSE(bodies.all()[0].is_held) << "closed jaws that come near";
   now.instrument.opening = 1;
@@ -94,7 +94,7 @@ TEST_F(LooseBodiesOnATable, JawsThatAreTooFarOrClosedBeforeTakeNothing) {
 
 TEST_F(LooseBodiesOnATable, ChangeOfTheInstrumentDropsTheBody) {
   LooseBodies bodies = Of({0.001, 0, 0.025});
-  now.instrument.proxy_in_portal = {0.001, -kRadius, 0.025};
+  now.instrument.proxy_in_portal = {0.001, -kBodyRadius, 0.025};
   Ticks(bodies, 1);
   now.instrument.opening = 0;
   Ticks(bodies, 1);
@@ -107,8 +107,8 @@ TEST_F(LooseBodiesOnATable, ChangeOfTheInstrumentDropsTheBody) {
 TEST_F(LooseBodiesOnATable, BodyThatIsLetGoAtItsGoalStaysThere) {
   for (const bool is_at_goal : {true, false}) {
     const Ball goal{{is_at_goal ? 0.001 : 0.02, 0, 0.025}, 8e-3};
-    LooseBodies bodies(loaded, {{{0.001, 0, 0.025}, kRadius, false, true}}, relief, {goal});
-    now.instrument.proxy_in_portal = {0.001, -kRadius, 0.025};
+    LooseBodies bodies(loaded, {{{0.001, 0, 0.025}, kBodyRadius, false, true}}, relief, {goal});
+    now.instrument.proxy_in_portal = {0.001, -kBodyRadius, 0.025};
     now.instrument.opening = 1;
     Ticks(bodies, 1);
     now.instrument.opening = 0;
@@ -124,7 +124,7 @@ TEST_F(LooseBodiesOnATable, BodyThatIsLetGoAtItsGoalStaysThere) {
 
 TEST_F(LooseBodiesOnATable, TickAllocatesNothing) {
   LooseBodies bodies = Of({0.001, 0, 0.025});
-  now.instrument.proxy_in_portal = {0.001, -kRadius, 0.025};
+  now.instrument.proxy_in_portal = {0.001, -kBodyRadius, 0.025};
   const long before = test::Allocations();
   Ticks(bodies, 5);
   now.instrument.opening = 0;
@@ -135,11 +135,11 @@ TEST_F(LooseBodiesOnATable, TickAllocatesNothing) {
 }
 
 TEST_F(LooseBodiesOnATable, TargetOfAnAttemptMovesWithItsBody) {
-  TargetPlace target = TargetInBall({0.001, 0, 0.025}, kRadius);
+  TargetPlace target = TargetInBall({0.001, 0, 0.025}, kBodyRadius);
   target.is_loose = true;
   const ScopeEye eye(loaded);
   LiveAttempt attempt(loaded, {TargetInBall({0, 0, 0.02}, 1e-3), target}, relief, eye);
-  now.instrument.proxy_in_portal = {0.001, -kRadius, 0.025};
+  now.instrument.proxy_in_portal = {0.001, -kBodyRadius, 0.025};
   const auto ticks = [&](int count) {
     for (int i = 0; i < count; ++i) {
       now.t += 0.001;

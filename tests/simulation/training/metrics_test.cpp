@@ -23,7 +23,6 @@ namespace {
 using test::FramesOf;
 using test::ToolAt;
 
-constexpr double kTurn = 2 * std::numbers::pi;
 const double kRates[] = {100, 250, 1000};
 
 std::optional<double> ValueOf(const std::vector<AttemptFrame>& frames, std::string_view id,
@@ -42,12 +41,12 @@ Snapshot Instrument(const ToolState& state) {
 
 // Radius 10 mm, pitch 5 mm, 4 turns in 8 s, about an axis in the joint.
 glm::dvec3 Helix(double t) {
-  const double turn = kTurn * t / 2;
+  const double turn = kRadianPerTurn * t / 2;
   return {0.01 * std::cos(turn), 0.01 * std::sin(turn), 0.02 + 0.005 * t / 2};
 }
 
 // Length of one turn: 2 π times the root of the squares of radius and rise per radian.
-const double kHelixTurn = kTurn * std::hypot(0.01, 0.005 / kTurn);
+const double kHelixTurn = kRadianPerTurn * std::hypot(0.01, 0.005 / kRadianPerTurn);
 
 TEST(Metrics, PathOfAHelix) {
   // A frame stands for its middle, so 7.99 s of the way lie between the first and the last.
@@ -74,11 +73,11 @@ TEST(Metrics, NoiseOfTheDeviceHardlyLengthensThePath) {
 
 TEST(Metrics, TurnOnACone) {
   const double slope = RadiansFromDegrees(20);
-  const double exact = 2 * kTurn * std::sin(slope) * 7.99 / 8;
+  const double exact = 2 * kRadianPerTurn * std::sin(slope) * 7.99 / 8;
   EXPECT_NEAR(DegreesFromRadians(exact), 245.947, 1e-3);
   for (const double rate : kRates) {
     const auto frames = FramesOf(8, rate, [&](double t) {
-      const double turn = kTurn * t / 4;
+      const double turn = kRadianPerTurn * t / 4;
       return Instrument(
           ToolAt(0.02 * glm::dvec3(std::sin(slope) * std::cos(turn),
                                    std::sin(slope) * std::sin(turn), std::cos(slope))));
@@ -92,8 +91,8 @@ TEST(Metrics, TurnOnACone) {
 
 TEST(Metrics, RollAndDepthAddUp) {
   const auto frames = FramesOf(4, 1000, [](double t) {
-    ToolState state = ToolAt({0, 0, 0.02 + 0.005 * std::sin(kTurn * t / 2)});
-    state.pose.roll = 0.5 * std::sin(kTurn * t / 4);
+    ToolState state = ToolAt({0, 0, 0.02 + 0.005 * std::sin(kRadianPerTurn * t / 2)});
+    state.pose.roll = 0.5 * std::sin(kRadianPerTurn * t / 4);
     return Instrument(state);
   });
   // Two whole swings of 5 mm, and one of 0.5 rad.
@@ -158,8 +157,8 @@ TEST(Metrics, BothHands) {
     // Ways sin and cos have the speeds |cos| and |sin|.
     const auto frames = FramesOf(20, rate, [](double t) {
       Snapshot snapshot;
-      snapshot.scope = ToolAt({0.01 * std::sin(kTurn * t / 2), 0, 0.02});
-      snapshot.instrument = ToolAt({0.01 * std::cos(kTurn * t / 2), 0, 0.02});
+      snapshot.scope = ToolAt({0.01 * std::sin(kRadianPerTurn * t / 2), 0, 0.02});
+      snapshot.instrument = ToolAt({0.01 * std::cos(kRadianPerTurn * t / 2), 0, 0.02});
       return snapshot;
     });
     // Closed form: (1/π − 4/π²) / (1/2 − 4/π²).
@@ -174,7 +173,7 @@ TEST(Metrics, ForceOfHalfASine) {
       ToolState state = ToolAt({0, 0, 0.02});
       if (t > 0.5 && t <= 1) {
         state.contact = kBackdropContact;
-        state.tip_force = {0, 0, 6 * std::sin(kTurn * (t - 0.5))};
+        state.tip_force = {0, 0, 6 * std::sin(kRadianPerTurn * (t - 0.5))};
       }
       return Instrument(state);
     });
@@ -269,7 +268,7 @@ TEST(ExerciseMetrics, TriangulationEndsWhereASecondOfSightBegins) {
 TEST(ExerciseMetrics, HorizonIsTheMeanTurnEitherWay) {
   std::vector<AttemptFrame> frames(100, test::QuietFrame());
   for (std::size_t k = 0; k < frames.size(); ++k)
-    frames[k].head_roll = k % 2 == 0 ? 0.25F : static_cast<float>(kTurn) - 0.75F;
+    frames[k].head_roll = k % 2 == 0 ? 0.25F : static_cast<float>(kRadianPerTurn) - 0.75F;
   EXPECT_NEAR(ExerciseValue(frames, "horizon"), 0.5, 1e-6);
 }
 

@@ -9,8 +9,8 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr glm::dvec3 kMiddle{0.0, 0.0, 0.025};
-constexpr double kBall = 5e-3;  // m
+constexpr glm::dvec3 kTarget{0.0, 0.0, 0.025};
+constexpr double kTargetRadius = 5e-3;  // m
 
 // A bare sphere of 35 mm with a ball before its middle.
 LoadedScene SphereWithBall() {
@@ -20,8 +20,8 @@ LoadedScene SphereWithBall() {
   loaded.scene.backdrop.projection.focal_px = 70;
   loaded.panorama = Share(ColourImage(200, 200));
   loaded.scene.tissues.emplace_back();
-  loaded.scene.tissues[0].pose.position = kMiddle;
-  loaded.surfaces.push_back(Share(test::Sphere({0, 0, 0}, kBall, 4)));
+  loaded.scene.tissues[0].pose.position = kTarget;
+  loaded.surfaces.push_back(Share(test::Sphere({0, 0, 0}, kTargetRadius, 4)));
   return loaded;
 }
 
@@ -52,8 +52,8 @@ TEST_F(PoseSearch, PoseLooksAtTheTargetFromWithinTheLimits) {
 }
 
 TEST_F(PoseSearch, NoPoseSeesTheBackOfTheBall) {
-  EXPECT_TRUE(Find(*TargetOnTissue(loaded, 0, {0, 0, -kBall}, 1e-3), 30));
-  EXPECT_FALSE(Find(*TargetOnTissue(loaded, 0, {0, 0, kBall}, 1e-3), 30));
+  EXPECT_TRUE(Find(*TargetOnTissue(loaded, 0, {0, 0, -kTargetRadius}, 1e-3), 30));
+  EXPECT_FALSE(Find(*TargetOnTissue(loaded, 0, {0, 0, kTargetRadius}, 1e-3), 30));
 }
 
 TEST_F(PoseSearch, StraightScopeDoesNotSeeWhatTheBallHides) {

@@ -16,12 +16,12 @@
 namespace arthro::simulation {
 namespace {
 
-const std::filesystem::path kResources = std::filesystem::path(ARTHRO_SOURCE_DIR) / "resources";
+const std::filesystem::path kShipped = std::filesystem::path(ARTHRO_SOURCE_DIR) / "resources";
 
-LoadedScene Demo() { return LoadScene(kResources / "demo"); }
+LoadedScene FreshDemo() { return LoadScene(kShipped / "demo"); }
 
 TEST(FingerprintOfScene, IsThatOfTheGeometryAlone) {
-  const LoadedScene demo = Demo();
+  const LoadedScene demo = FreshDemo();
   const std::string print = FingerprintOfScene(demo);
   LoadedScene same = demo;
   same.scene.title = "another title";
@@ -51,7 +51,7 @@ TEST(FingerprintOfScene, IsThatOfTheGeometryAlone) {
 }
 
 TEST(SceneOfAttempt, OfAnOlderHeadIsToldByTitleAndSurfaces) {
-  const LoadedScene demo = Demo();
+  const LoadedScene demo = FreshDemo();
   const Exercise& exercise = demo.scene.exercises[0];
   AttemptHead head;
   head.exercise = exercise.id;
@@ -69,9 +69,9 @@ TEST(SceneOfAttempt, OfAnOlderHeadIsToldByTitleAndSurfaces) {
 }
 
 TEST(ObserveRecording, BeginsInTheStateOfTheExerciseAndEndsWithIt) {
-  const LoadedScene demo = Demo();
-  const Recording recording{ReadTrace(kResources / "demo/trace.csv"), {}};
-  const auto presets = ReadTissuePresets(kResources / "presets" / "tissues");
+  const LoadedScene demo = FreshDemo();
+  const Recording recording{ReadTrace(kShipped / "demo/trace.csv"), {}};
+  const auto presets = ReadTissuePresets(kShipped / "presets" / "tissues");
   const auto observe = [&](const Exercise& exercise) {
     return ObserveRecording(demo, recording, exercise, {}, {}, presets);
   };

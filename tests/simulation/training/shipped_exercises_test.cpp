@@ -13,10 +13,10 @@
 namespace arthro::simulation {
 namespace {
 
-Scene Demo() { return ReadScene(std::filesystem::path(ARTHRO_SOURCE_DIR) / "resources/demo"); }
+Scene DemoScene() { return ReadScene(std::filesystem::path(ARTHRO_SOURCE_DIR) / "resources/demo"); }
 
 TEST(ShippedExercises, AreFourteenWithoutFaults) {
-  const Scene scene = Demo();
+  const Scene scene = DemoScene();
   EXPECT_EQ(scene.exercises.size(), 14u);
   EXPECT_EQ(ExerciseFaults(scene), std::vector<std::string>());
   EXPECT_EQ(CriterionFaults(scene), std::vector<std::string>());
@@ -33,7 +33,7 @@ TEST(ShippedExercises, AreFourteenWithoutFaults) {
 
 TEST(ShippedExercises, UseEveryKindOfStep) {
   std::set<std::string> kinds;
-  for (const Exercise& exercise : Demo().exercises)
+  for (const Exercise& exercise : DemoScene().exercises)
     for (const ExerciseStep& step : exercise.steps) kinds.insert(KindOf(step));
   EXPECT_EQ(kinds.size(), std::variant_size_v<ExerciseStep>);
 }

@@ -53,24 +53,24 @@ AttemptFrame Measured(TakenTissue& taken, const WorldPicture& world) {
 }
 
 // Frames hold 32 bits, so volumes agree within this share.
-constexpr double kRounding = 1e-6;
+constexpr double kTakenRounding = 1e-6;
 
 TEST(TakenTissue, IsCountedByTheRegionsOfTheTargets) {
   const LoadedScene loaded = HeldBall();
   TakenTissue taken(loaded, PlacesOfTargets(loaded, TrimOfFlap()));
   AttemptFrame frame = Measured(taken, Removed(0, 5, 0));
-  EXPECT_NEAR(frame.sight.target[0].taken_share, 0.25, kRounding);
-  EXPECT_NEAR(frame.taken, 5e-9, 5e-9 * kRounding);
+  EXPECT_NEAR(frame.sight.target[0].taken_share, 0.25, kTakenRounding);
+  EXPECT_NEAR(frame.taken, 5e-9, 5e-9 * kTakenRounding);
   EXPECT_EQ(frame.taken_outside, 0.0F);
   // A region that no target names lies outside.
   frame = Measured(taken, Removed(2, 15, 1));
-  EXPECT_NEAR(frame.sight.target[0].taken_share, 0.75, kRounding);
-  EXPECT_NEAR(frame.taken, 13e-9, 13e-9 * kRounding);
-  EXPECT_NEAR(frame.taken_outside, 3e-9, 3e-9 * kRounding);
+  EXPECT_NEAR(frame.sight.target[0].taken_share, 0.75, kTakenRounding);
+  EXPECT_NEAR(frame.taken, 13e-9, 13e-9 * kTakenRounding);
+  EXPECT_NEAR(frame.taken_outside, 3e-9, 3e-9 * kTakenRounding);
   frame = Measured(taken, Removed(2, 15, 1));
   EXPECT_EQ(frame.taken, 0.0F);
   EXPECT_EQ(frame.taken_outside, 0.0F);
-  EXPECT_NEAR(frame.sight.target[0].taken_share, 0.75, kRounding);
+  EXPECT_NEAR(frame.sight.target[0].taken_share, 0.75, kTakenRounding);
 }
 
 TEST(TakenTissue, ResetPutsNothingBack) {
@@ -82,7 +82,7 @@ TEST(TakenTissue, ResetPutsNothingBack) {
   EXPECT_EQ(frame.taken_outside, 0.0F);
   EXPECT_EQ(frame.sight.target[0].taken_share, 0.0F);
   frame = Measured(taken, Removed(0, 0, 1));
-  EXPECT_NEAR(frame.taken_outside, 1e-9, 1e-9 * kRounding);
+  EXPECT_NEAR(frame.taken_outside, 1e-9, 1e-9 * kTakenRounding);
 }
 
 TEST(TakenTissue, RimIsTheDistanceOfCutFacesFromTheWall) {

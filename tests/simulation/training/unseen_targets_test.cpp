@@ -12,7 +12,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kBall = 5e-3;  // m
+constexpr double kUnseenRadius = 5e-3;  // m
 
 // A bare sphere of 35 mm with a ball before its middle, and a step for one target.
 LoadedScene SphereWithBall(const ExerciseTarget& target, const ExerciseStep& step) {
@@ -24,7 +24,7 @@ LoadedScene SphereWithBall(const ExerciseTarget& target, const ExerciseStep& ste
   Tissue& ball = loaded.scene.tissues.emplace_back();
   ball.name = "ball";
   ball.pose.position = {0.0, 0.0, 0.025};
-  loaded.surfaces.push_back(Share(test::Sphere({0, 0, 0}, kBall, 4)));
+  loaded.surfaces.push_back(Share(test::Sphere({0, 0, 0}, kUnseenRadius, 4)));
   Exercise& exercise = loaded.scene.exercises.emplace_back();
   exercise.id = "look";
   exercise.setup.view_angles = {RadiansFromDegrees(30)};
@@ -51,8 +51,10 @@ Step StepAt(const std::string& target) {
 }
 
 TEST(UnseenTargets, FrontOfABallIsSeenAndItsBackIsNamed) {
-  EXPECT_TRUE(UnseenTargets(SphereWithBall(OnBall(-kBall), StepAt<SeeStep>("spot"))).empty());
-  const auto unseen = UnseenTargets(SphereWithBall(OnBall(kBall), StepAt<ProbeStep>("spot")));
+  EXPECT_TRUE(
+      UnseenTargets(SphereWithBall(OnBall(-kUnseenRadius), StepAt<SeeStep>("spot"))).empty());
+  const auto unseen =
+      UnseenTargets(SphereWithBall(OnBall(kUnseenRadius), StepAt<ProbeStep>("spot")));
   ASSERT_EQ(unseen.size(), 1u);
   EXPECT_EQ(ToString(unseen[0]),
             "exercise \"look\": no pose sees target \"spot\" with a 30° scope");
@@ -60,13 +62,13 @@ TEST(UnseenTargets, FrontOfABallIsSeenAndItsBackIsNamed) {
 
 TEST(UnseenTargets, KeepsTheDistanceThatAStepAllows) {
   auto step = StepAt<HoldStep>("spot");
-  EXPECT_TRUE(UnseenTargets(SphereWithBall(OnBall(-kBall), step)).empty());
+  EXPECT_TRUE(UnseenTargets(SphereWithBall(OnBall(-kUnseenRadius), step)).empty());
   step.distance = {0.03, 0.04};  // the spot is 20 mm from the portal
-  EXPECT_EQ(UnseenTargets(SphereWithBall(OnBall(-kBall), step)).size(), 1u);
+  EXPECT_EQ(UnseenTargets(SphereWithBall(OnBall(-kUnseenRadius), step)).size(), 1u);
 }
 
 TEST(UnseenTargets, NamesAllViewAnglesOfTheExercise) {
-  LoadedScene loaded = SphereWithBall(OnBall(kBall), StepAt<ProbeStep>("spot"));
+  LoadedScene loaded = SphereWithBall(OnBall(kUnseenRadius), StepAt<ProbeStep>("spot"));
   loaded.scene.exercises[0].setup.view_angles.push_back(RadiansFromDegrees(70));
   const auto unseen = UnseenTargets(loaded);
   ASSERT_EQ(unseen.size(), 1u);

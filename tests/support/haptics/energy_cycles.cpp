@@ -13,13 +13,13 @@
 #include "simulation/core/units.h"
 #include "simulation/scene/projection.h"
 #include "simulation/scope/rod_pose.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::test {
 namespace {
 
 using namespace simulation;
 
-constexpr double kTick = 1e-3;                             // s
 constexpr double kRadius = 0.05, kSpacing = 0.018;         // m
 constexpr double kSlowest = 0.02, kFastest = 0.15;         // m/s
 constexpr double kShallowest = -0.003, kMiddling = 0.006;  // m, of a waypoint below the sphere

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/tissue/contact/coupling.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::test {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 using namespace simulation;
 
 constexpr double kSpring = 500, kSlope = 500, kGrowth = 6e4;  // N/m, N/m, N/m²
-constexpr double kTick = 1e-3;                                // s
 constexpr int kTicks = 4000;
 constexpr int kSettled = 500;  // ticks before the measurement
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/platform/theme.h"
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/depth/pages/depth_panels.h"
 
@@ -14,7 +15,7 @@ namespace arthro::app {
 namespace {
 
 constexpr float kProfileHeight = 190;  // at scale 1
-constexpr unsigned kShadow = 0xC0000000, kPlate = 0xD0231E1B;
+constexpr unsigned kPlate = 0xD0231E1B;
 
 // Pixels of the panorama on the screen.
 struct Screen {
@@ -39,7 +40,8 @@ bool IsInside(const glm::dvec2& pixel, const glm::dvec2& size) {
 void Cross(const Ui& ui, const ImVec2& at, unsigned colour) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float r = ui.Px(7);
-  for (const auto& [shade, width] : {std::pair(kShadow, ui.Px(4)), std::pair(colour, ui.Px(2))}) {
+  for (const auto& [shade, width] :
+       {std::pair(kMarkShadow, ui.Px(4)), std::pair(colour, ui.Px(2))}) {
     draw->AddLine({at.x - r, at.y}, {at.x + r, at.y}, shade, width);
     draw->AddLine({at.x, at.y - r}, {at.x, at.y + r}, shade, width);
   }
@@ -66,7 +68,7 @@ void Pair(Ui& ui, const Screen& screen, const PointPair& points, const std::stri
   if (points.to) {
     const ImVec2 b = screen.At(*points.to);
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    draw->AddLine(a, b, kShadow, ui.Px(4));
+    draw->AddLine(a, b, kMarkShadow, ui.Px(4));
     draw->AddLine(a, b, colour, ui.Px(2));
     Cross(ui, b, colour);
     if (!words.empty())
@@ -96,7 +98,7 @@ void Marks(Ui& ui, const EditorState& state, const Screen& screen) {
   const ImVec2 at = ImGui::GetIO().MousePos;
   const float radius = std::max(1.0f, screen.Length(BrushRadius(state)));
   const float core = radius * static_cast<float>(board.brush.stroke.hardness);
-  draw->AddCircle(at, radius, kShadow, 64, ui.Px(3));
+  draw->AddCircle(at, radius, kMarkShadow, 64, ui.Px(3));
   draw->AddCircle(at, radius, kBright, 64, ui.Px(1.5));
   if (core >= ui.Px(3)) draw->AddCircle(at, core, 0x90FFFFFF, 48, ui.Px(1));
 }

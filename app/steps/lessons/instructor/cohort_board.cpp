@@ -23,7 +23,7 @@
 namespace arthro::app {
 namespace {
 
-CohortBoard& BoardOf(EditorState& state) { return *state.steps.lessons->cohort; }
+CohortBoard& CohortOf(EditorState& state) { return *state.steps.lessons->cohort; }
 
 const Exercise* ChosenOf(const EditorState& state, const CohortBoard& board) {
   const auto& exercises = state.document().scene.exercises;
@@ -103,8 +103,8 @@ void ReadCurve(Records& records, const EditorState& state, CohortBoard& board) {
 
 // Runs `work` on the records; what they refuse is the page's fault.
 template <class Work>
-void Try(EditorState& state, const Work& work) {
-  CohortBoard& board = BoardOf(state);
+void WithRecords(EditorState& state, const Work& work) {
+  CohortBoard& board = CohortOf(state);
   LessonRecords& own = *state.steps.lessons->records;
   try {
     if (ReachRecords(own))
@@ -118,7 +118,7 @@ void Try(EditorState& state, const Work& work) {
 
 // Reads the codes anew; a trainee that was chosen stays so.
 void Read(EditorState& state) {
-  CohortBoard& board = BoardOf(state);
+  CohortBoard& board = CohortOf(state);
   board.fault.clear();
   board.is_stale = false;
   board.is_curve_stale = true;
@@ -129,14 +129,14 @@ void Read(EditorState& state) {
   board.knows_choice = true;
   const std::string chosen =
       HasChoice(board) ? board.rows[static_cast<std::size_t>(board.row)].code : "";
-  Try(state, [&](Records& records) { ReadRows(records, board); });
+  WithRecords(state, [&](Records& records) { ReadRows(records, board); });
   const auto row = std::ranges::find(board.rows, chosen, &CohortRowOfPage::code);
   board.row = row == board.rows.end() ? -1 : static_cast<int>(row - board.rows.begin());
 }
 
 void KeepChoice(EditorState& state) {
   const LessonRecords& records = *state.steps.lessons->records;
-  if (!records.place.empty()) WriteInstructorChoice(FolderOf(records), BoardOf(state).choice);
+  if (!records.place.empty()) WriteInstructorChoice(FolderOf(records), CohortOf(state).choice);
 }
 
 }  // namespace
@@ -194,17 +194,18 @@ LearningCurve CurveOf(std::vector<AttemptPoint> points) {
 }
 
 CohortBoard& FreshCohortBoard(EditorState& state) {
-  CohortBoard& board = BoardOf(state);
+  CohortBoard& board = CohortOf(state);
   if (board.is_stale || board.document != state.document_number ||
       board.hashes.size() != state.document().scene.exercises.size())
     Read(state);
-  if (board.is_curve_stale) Try(state, [&](Records& records) { ReadCurve(records, state, board); });
+  if (board.is_curve_stale)
+    WithRecords(state, [&](Records& records) { ReadCurve(records, state, board); });
   board.is_curve_stale = false;  // nor is it asked for again where the records refuse it
   return board;
 }
 
 void ReadShownRows(EditorState& state, int first, int last) {
-  CohortBoard& board = BoardOf(state);
+  CohortBoard& board = CohortOf(state);
   const auto& exercises = state.document().scene.exercises;
   if (exercises.empty()) return;
   // Rows read beyond those shown on each side, so that a slow scroll asks once in a while.
@@ -218,7 +219,7 @@ void ReadShownRows(EditorState& state, int first, int last) {
   for (int row = std::max(0, first - kMore); row < end; ++row)
     if (is_unread(begin[row])) codes.push_back(begin[row].code);
   std::map<std::string, std::vector<Standing>> by_code;
-  Try(state, [&](Records& records) {
+  WithRecords(state, [&](Records& records) {
     for (Standing& standing : StandingsOf(records, codes, board.performers))
       by_code[standing.trainee].push_back(std::move(standing));
   });
@@ -228,28 +229,28 @@ void ReadShownRows(EditorState& state, int first, int last) {
 }
 
 void ShowInstructorPage(EditorState& state) {
-  BoardOf(state).is_stale = true;
+  CohortOf(state).is_stale = true;
   state.steps.lessons->page = LessonPage::kInstructor;
 }
 
 void ChooseCohort(EditorState& state, const std::string& cohort) {
-  BoardOf(state).choice.cohort = cohort;
-  BoardOf(state).is_stale = true;
+  CohortOf(state).choice.cohort = cohort;
+  CohortOf(state).is_stale = true;
   KeepChoice(state);
 }
 
 void FindTrainees(EditorState& state, const std::string& part_of_code) {
-  BoardOf(state).search = part_of_code;
-  BoardOf(state).is_stale = true;
+  CohortOf(state).search = part_of_code;
+  CohortOf(state).is_stale = true;
 }
 
 void ShowAttemptsOf(EditorState& state, Performers performers) {
-  BoardOf(state).performers = performers;
-  BoardOf(state).is_stale = true;
+  CohortOf(state).performers = performers;
+  CohortOf(state).is_stale = true;
 }
 
 void ChooseCell(EditorState& state, int row, int exercise) {
-  CohortBoard& board = BoardOf(state);
+  CohortBoard& board = CohortOf(state);
   board.row = row;
   board.exercise = exercise;
   board.metric = 0;
@@ -257,12 +258,12 @@ void ChooseCell(EditorState& state, int row, int exercise) {
 }
 
 void ChooseMetric(EditorState& state, int metric) {
-  BoardOf(state).metric = metric;
-  BoardOf(state).is_curve_stale = true;
+  CohortOf(state).metric = metric;
+  CohortOf(state).is_curve_stale = true;
 }
 
 void ChooseGroup(EditorState& state, const std::string& group) {
-  CohortBoard& board = BoardOf(state);
+  CohortBoard& board = CohortOf(state);
   board.choice.has_band = !group.empty();
   if (!group.empty()) board.choice.group = group;
   board.is_curve_stale = true;
@@ -276,7 +277,7 @@ bool MayOpenGate(const EditorState& state) {
 }
 
 void OpenChosenGate(EditorState& state) {
-  CohortBoard& board = BoardOf(state);
+  CohortBoard& board = CohortOf(state);
   const Exercise& exercise = *ChosenOf(state, board);
   const std::string& code = board.rows[static_cast<std::size_t>(board.row)].code;
   OpenGate(*state.steps.lessons->records->open, code, ExerciseRowOf(exercise), board.who,

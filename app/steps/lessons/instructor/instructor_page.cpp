@@ -18,7 +18,6 @@ namespace arthro::app {
 namespace {
 
 constexpr float kCodeWidth = 84, kCellWidth = 72, kMostCellWidth = 200;  // px at scale 1
-constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
 void Head(Ui& ui, EditorState& state, const CohortBoard& board) {
   LargeText(ui, "Trainees");

@@ -25,7 +25,6 @@ using simulation::AttemptFrame;
 using simulation::DeviceRole;
 using simulation::EventKind;
 
-constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t kMostPoints = 2000;  // points in a curve; more than a figure has pixels
 
 // Largest of each run of frames, so that a short peak is not lost; NaN where none has a value.

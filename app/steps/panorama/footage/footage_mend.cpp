@@ -13,7 +13,7 @@
 namespace arthro::app {
 namespace {
 
-FootageBoard* BoardOf(EditorState& state) {
+FootageBoard* OpenFootage(EditorState& state) {
   auto& footage = state.steps.panorama->footage;
   return footage ? &*footage : nullptr;
 }
@@ -36,7 +36,7 @@ glm::dvec2 ShownPixel(const MadePanorama& made, glm::dvec2 in_report) {
 }
 
 void SetTool(EditorState& state, BoardTool tool) {
-  FootageBoard* board = BoardOf(state);
+  FootageBoard* board = OpenFootage(state);
   if (!board) return;
   board->tool = board->tool == tool ? BoardTool::kLook : tool;
   board->picked.reset();
@@ -44,7 +44,7 @@ void SetTool(EditorState& state, BoardTool tool) {
 }
 
 void AddTie(EditorState& state, const glm::dvec2& raw, const glm::dvec2& panorama) {
-  FootageBoard* board = BoardOf(state);
+  FootageBoard* board = OpenFootage(state);
   if (!board || !board->made || board->selected < 0) return;
   const auto other = FrameAt(board->made->report, InReport(*board->made, panorama));
   if (!other)
@@ -61,7 +61,7 @@ void AddTie(EditorState& state, const glm::dvec2& raw, const glm::dvec2& panoram
 }
 
 void RemoveTie(EditorState& state, std::size_t tie) {
-  FootageBoard* board = BoardOf(state);
+  FootageBoard* board = OpenFootage(state);
   if (!board || tie >= board->ties.size()) return;
   board->ties.erase(board->ties.begin() + static_cast<std::ptrdiff_t>(tie));
   KeepChoices(state, "Remove a tie point");
@@ -69,7 +69,7 @@ void RemoveTie(EditorState& state, std::size_t tie) {
 }
 
 void AddMask(EditorState& state, const glm::dvec2& corner, const glm::dvec2& opposite) {
-  FootageBoard* board = BoardOf(state);
+  FootageBoard* board = OpenFootage(state);
   if (!board) return;
   const auto pixel = [](double value, int size) {
     return std::clamp(static_cast<int>(std::lround(value)), 0, size - 1);
@@ -86,7 +86,7 @@ void AddMask(EditorState& state, const glm::dvec2& corner, const glm::dvec2& opp
 }
 
 void RemoveMask(EditorState& state, std::size_t mask) {
-  FootageBoard* board = BoardOf(state);
+  FootageBoard* board = OpenFootage(state);
   if (!board || mask >= board->masked.size()) return;
   board->masked.erase(board->masked.begin() + static_cast<std::ptrdiff_t>(mask));
   KeepChoices(state, "Remove a mask");
@@ -100,7 +100,7 @@ bool CanProposeMasks(const EditorState& state) {
 
 void ProposeMasks(EditorState& state) {
   if (!CanProposeMasks(state)) return;
-  FootageBoard& board = *BoardOf(state);
+  FootageBoard& board = *OpenFootage(state);
   int added = 0;
   for (const authoring::PixelBox& box : board.made->report.text_boxes)
     if (std::find(board.masked.begin(), board.masked.end(), box) == board.masked.end()) {

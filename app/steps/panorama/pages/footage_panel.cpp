@@ -95,7 +95,7 @@ void Clip(Ui& ui, EditorState& state) {
   }
 }
 
-void LensChooser(Ui& ui, EditorState& state) {
+void ClipLensChooser(Ui& ui, EditorState& state) {
   const FootageBoard& board = *state.steps.panorama->footage;
   std::vector<std::string> words;
   for (const LensChoice& lens : board.lenses) words.push_back(lens.words);
@@ -188,7 +188,7 @@ void FootagePanel(Ui& ui, EditorState& state) {
   Clip(ui, state);
   if (!state.steps.panorama->footage) return;
   Gap(ui, 2);
-  LensChooser(ui, state);
+  ClipLensChooser(ui, state);
   ReliefChooser(ui, state);
   authoring::PanoramaOptions options = *state.steps.panorama->footage->options;
   OptionsPanelVisitor panel{ui};

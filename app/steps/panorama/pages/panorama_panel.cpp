@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "app/panels/command_button.h"
+#include "app/panels/drag.h"
 #include "app/panels/fixed_window.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
@@ -14,11 +15,6 @@
 
 namespace arthro::app {
 namespace {
-
-void Drag(EditorState& state, const Change& change) {
-  if (change.held) state.dragging = true;
-  if (change.released) EndDrag(state);
-}
 
 // Switch between footage and backdrop, once there is a clip.
 void FootageOrBackdrop(Ui& ui, EditorState& state) {

@@ -5,7 +5,7 @@
 namespace arthro::app {
 namespace {
 
-constexpr Command kCommands[] = {
+constexpr Command kGridLensCommands[] = {
     {"grid-lens",
      "Pictures of a grid…",
      "Calibrate the lens of the scope from pictures of a line grid, chessboard or dot grid.",
@@ -36,6 +36,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> GridLensCommands() { return kCommands; }
+std::span<const Command> GridLensCommands() { return kGridLensCommands; }
 
 }  // namespace arthro::app

@@ -21,7 +21,6 @@ using simulation::PivotStatus;
 
 constexpr double kEnough = 30 * kRadianPerDegree;  // [method.md, Pivot calibration]
 constexpr double kFullBar = 60 * kRadianPerDegree;
-constexpr double kButton = 44;  // px; a thumb hits it
 
 std::string InMm(double metres) {
   return std::isfinite(metres) ? fmt::format("{:.3g} mm", MmFromMetres(metres)) : std::string("–");
@@ -112,17 +111,17 @@ void IncisionPage(Ui& ui, EditorState& state, const Area& area) {
   Gap(ui);
   const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
   if (own.work.source() == PivotSource::kPresses) {
-    CommandButton(ui, state, "press-incision", {half, ui.Px(kButton)});
+    CommandButton(ui, state, "press-incision", {half, ui.Px(kThumbButton)});
     ImGui::SameLine(0, ui.Px(8));
   }
-  CommandButton(ui, state, "begin-incision-again", {half, ui.Px(kButton)});
+  CommandButton(ui, state, "begin-incision-again", {half, ui.Px(kThumbButton)});
   // Allows a solved pivot when only the rod's length is in doubt: the pivot is right, and a person
   // who calibrates with the rod drawn back would otherwise be stopped.
   if (own.work.found().status == PivotStatus::kOutsideRod)
     QuietText(ui,
               "The pivot itself is known; only the rod's length, or where its tip was, is in "
               "doubt. It may be used all the same.");
-  CommandButton(ui, state, "use-incision", {-FLT_MIN, ui.Px(kButton)});
+  CommandButton(ui, state, "use-incision", {-FLT_MIN, ui.Px(kThumbButton)});
   if (!own.outcome.empty()) {
     ColouredText(ui, own.outcome, own.is_unsaved ? kWarning : kGood);
     if (state.steps.practice->hands->IsInRig(own.role))
@@ -134,7 +133,7 @@ void IncisionPage(Ui& ui, EditorState& state, const Area& area) {
              "As the maker states it, rms: about 0.1 for encoders, 0.5 to 2 for potentiometers."))
     own.work.SetAngleNoise(RadiansFromDegrees(noise_deg));
   QuietText(ui, "No device gets a force during calibration.");
-  CommandButton(ui, state, "close-calibration", {-FLT_MIN, ui.Px(kButton)});
+  CommandButton(ui, state, "close-calibration", {-FLT_MIN, ui.Px(kThumbButton)});
 }
 
 }  // namespace arthro::app

@@ -9,6 +9,7 @@
 
 #include "app/panels/command_button.h"
 #include "app/panels/fixed_window.h"
+#include "app/state/clock_words.h"
 #include "app/state/command.h"
 #include "app/steps/practice/film.h"
 #include "app/steps/practice/practice_step.h"
@@ -24,13 +25,6 @@ namespace {
 constexpr double kForceOfHarm = simulation::kSafeProbingForce;
 constexpr double kForceOfFullBar = 10.0;  // N
 constexpr double kForceOfCare = 3.0;      // N: amber from here
-
-constexpr double kButton = 44;  // px; a thumb hits it
-
-std::string ClockWords(double seconds) {
-  const int whole = static_cast<int>(seconds);
-  return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
-}
 
 std::string ContactWords(const EditorState& state, int contact) {
   if (contact == simulation::kNoContact) return "nothing";
@@ -120,7 +114,7 @@ void CameraHead(Ui& ui, EditorState& state) {
               {"head-upright", state.steps.practice->head.is_upright},
               {"head-left", false},
               {"head-right", false}},
-             ui.Px(kButton));
+             ui.Px(kThumbButton));
   ImGui::PopButtonRepeat();
 }
 
@@ -134,7 +128,7 @@ void Instruments(Ui& ui, EditorState& state) {
               {"instrument-punch", kind == ToolKind::kPunch},
               {"instrument-shaver", kind == ToolKind::kShaver},
               {"instrument-grasper", kind == ToolKind::kGrasper}},
-             ui.Px(kButton));
+             ui.Px(kThumbButton));
   if (const std::size_t offered = simulation::OfferedInstruments(state.document().scene).size();
       offered < static_cast<std::size_t>(ToolKind::kGrasper))
     QuietText(ui, fmt::format("This scene offers {} of {}; the rig page of step 5 offers more.",
@@ -266,7 +260,8 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   for (const int degrees : {0, 30, 70, 90}) {
     if (column++ > 0) ImGui::SameLine(0, ui.Px(6));
     const bool chosen = std::abs(practice.view_angle() - RadiansFromDegrees(degrees)) < 1e-6;
-    CommandToggle(ui, state, "view-" + std::to_string(degrees), chosen, {width, ui.Px(kButton)});
+    CommandToggle(ui, state, "view-" + std::to_string(degrees), chosen,
+                  {width, ui.Px(kThumbButton)});
   }
   Gap(ui);
   CameraHead(ui, state);
@@ -277,9 +272,10 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   if (Taken(state) > 0)
     CommandRow(ui, state,
                {{"reset-hands", false}, {"disturbances", is_disturbed}, {"reset-tissues", false}},
-               ui.Px(kButton));
+               ui.Px(kThumbButton));
   else
-    CommandRow(ui, state, {{"reset-hands", false}, {"disturbances", is_disturbed}}, ui.Px(kButton));
+    CommandRow(ui, state, {{"reset-hands", false}, {"disturbances", is_disturbed}},
+               ui.Px(kThumbButton));
   Gap(ui);
   // Missing devices are more urgent than the hint, and there is room for one of them.
   if (!MissingDevices(ui, state) && !ScreenNews(ui, state)) {
@@ -292,7 +288,7 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   }
 
   // At the foot, where it is not pressed by chance.
-  const float foot = 2 * ui.Px(kButton) + ui.Px(22);
+  const float foot = 2 * ui.Px(kThumbButton) + ui.Px(22);
   const float free = ImGui::GetContentRegionAvail().y - foot;
   if (free > 0) ImGui::Dummy({0, free - ImGui::GetStyle().ItemSpacing.y});
   CommandRow(ui, state,
@@ -301,12 +297,12 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
               {"full-screen", state.full_screen},
               {"budget", false},
               {"help", false}},
-             ui.Px(kButton));
+             ui.Px(kThumbButton));
   CommandRow(ui, state,
              {{"trainee-screen", state.steps.practice->trainee_screen.is_wanted},
               {"devices", false},
               {"leave-practice", false}},
-             ui.Px(kButton));
+             ui.Px(kThumbButton));
 }
 
 }  // namespace arthro::app

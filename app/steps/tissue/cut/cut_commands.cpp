@@ -7,7 +7,7 @@ namespace {
 
 using State = EditorState;
 
-constexpr Command kCommands[] = {
+constexpr Command kCutCommands[] = {
     {"cut-tear",
      "Tear…",
      "Click points along the tear on the tissue in either view. Press again to end it.",
@@ -70,6 +70,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> CutCommands() { return kCommands; }
+std::span<const Command> CutCommands() { return kCutCommands; }
 
 }  // namespace arthro::app

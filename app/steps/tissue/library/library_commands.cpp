@@ -1,4 +1,5 @@
 // Commands of the library: its models, and the usual tears of a meniscus.
+#include "app/state/command.h"
 #include "app/steps/tissue/library/tissue_library.h"
 #include "app/steps/tissue/tissue_step.h"
 
@@ -7,14 +8,12 @@ namespace {
 
 using State = EditorState;
 
-bool HasPictureAndTime(const State& state) { return Idle(state) && HasPicture(state); }
-
 template <authoring::ModelKind kind>
 void AddModelOf(State& state) {
   AddLibraryModel(state, kind);
 }
 
-constexpr Command kCommands[] = {
+constexpr Command kLibraryCommands[] = {
     {"library",
      "Library",
      "Show ready-made models of the structures of the knee, or hide them.",
@@ -121,6 +120,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> LibraryCommands() { return kCommands; }
+std::span<const Command> LibraryCommands() { return kLibraryCommands; }
 
 }  // namespace arthro::app

@@ -22,7 +22,7 @@ bool IsPlaced(const State& state) {
          state.steps.tissue->page == TissuePage::kPlace;
 }
 
-constexpr Command kCommands[] = {
+constexpr Command kPlacingCommands[] = {
     {"tissue-before-scope",
      "Bring it before the scope",
      "Move the chosen tissue into the middle of the scope's view.",
@@ -250,6 +250,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> PlacingCommands() { return kCommands; }
+std::span<const Command> PlacingCommands() { return kPlacingCommands; }
 
 }  // namespace arthro::app

@@ -4,14 +4,13 @@
 #include <optional>
 
 #include "authoring/panorama/graph/links/pair_graph.h"
+#include "simulation/core/at.h"
 
 namespace arthro::authoring {
 namespace {
 
 constexpr const char* kStage = "closing gaps";
 constexpr int kTriesPerOrphan = 3;
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 cv::Matx33d Scaled(const cv::Matx33d& m) { return m * (1 / m(2, 2)); }
 

@@ -10,13 +10,13 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "simulation/core/at.h"
+
 namespace arthro::authoring {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kFloor = 0.05;  // px; keeps overconfident pairs from hiding the length of a chain
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 struct Edge {
   int to, pair;

@@ -18,7 +18,7 @@ namespace {
 // Two degrees of freedom at 1 - 0.05 / 4: eight numbers move the nine points like four free ones.
 constexpr double kChi2OfWorst = 8.76;
 constexpr double kFixed = 1e9;  // in normalised units: known to 3e-5
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNotPlaced = std::numeric_limits<double>::infinity();
 
 struct Linearised {
   Matrix8 by_a, by_b;
@@ -51,7 +51,7 @@ Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
                                 const std::optional<Pinhole>& camera, double camera_deviation) {
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   Uncertainty result;
-  result.error_px.assign(plane_from_frame.size(), kNever);
+  result.error_px.assign(plane_from_frame.size(), kNotPlaced);
   result.pair_checked.assign(pairs.size(), 0.0);
   const Normalisation normalisation = NormalisationOf(pairs);
   std::vector<Eigen::Matrix3d> places;
@@ -158,7 +158,7 @@ Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
       worst = std::max(worst, half + spread);
     }
     result.error_px[i] = std::sqrt(std::max(0.0, worst) * kChi2OfWorst) * normalisation.scale;
-    if (!std::isfinite(result.error_px[i])) result.error_px[i] = kNever;
+    if (!std::isfinite(result.error_px[i])) result.error_px[i] = kNotPlaced;
   }
 
   // Redundancy [Baarda 1968]: 1 - trace(J inv(N) J^T) / 8.

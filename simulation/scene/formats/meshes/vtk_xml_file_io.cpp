@@ -31,7 +31,6 @@ constexpr std::size_t kMostComponents = 1024;                  // values a tuple
 constexpr std::size_t kMostUnpacked = std::size_t{512} << 20;  // bytes, all arrays of a file
 constexpr std::size_t kMostPieces = 10'000, kMostArrays = 100'000;
 constexpr std::size_t kDeepest = 16;  // VTK's own files are 6 deep
-constexpr std::string_view kBlanks = " \t\r\n";
 
 // Binary data of one array: bytes as they are, or as base64 text.
 class Binary {
@@ -68,7 +67,7 @@ class Binary {
     while (letters < 4 && !text_.empty()) {
       const char c = text_.front();
       text_.remove_prefix(1);
-      if (kBlanks.find(c) != kBlanks.npos) continue;
+      if (kXmlBlanks.find(c) != kXmlBlanks.npos) continue;
       const int value = c >= 'A' && c <= 'Z'   ? c - 'A'
                         : c >= 'a' && c <= 'z' ? c - 'a' + 26
                         : c >= '0' && c <= '9' ? c - '0' + 52
@@ -184,7 +183,7 @@ void VtkXmlFile::ReadTags(std::string_view kind) {
   XmlTag tag;
   while (tags.Next(tag)) {
     const auto is_blank = [](std::string_view text) {
-      return text.find_first_not_of(kBlanks) == text.npos;
+      return text.find_first_not_of(kXmlBlanks) == text.npos;
     };
     if (array && !is_blank(tag.text_before)) array->text = tag.text_before;
     array = nullptr;
@@ -226,7 +225,7 @@ void VtkXmlFile::ReadTags(std::string_view kind) {
     } else if (open.size() == 1 && tag.name == "AppendedData" && !tag.is_empty) {
       is_appended_base64_ = tag.Find("encoding") && *tag.Find("encoding") == "base64";
       const std::string_view all = bytes_.substr(0, bytes_.rfind("</AppendedData"));
-      const std::size_t mark = all.find_first_not_of(kBlanks, tags.position());
+      const std::size_t mark = all.find_first_not_of(kXmlBlanks, tags.position());
       require(all.size() < bytes_.size() && mark != all.npos && all[mark] == '_');
       appended_ = all.substr(mark + 1);
       tags.SkipTo(all.size());
@@ -290,11 +289,11 @@ std::vector<Value> VtkXmlFile::AsciiValues(const VtkXmlArray& array, std::size_t
   values.reserve(count);
   const char *at = array.text.data(), *const end = at + array.text.size();
   while (values.size() < count) {
-    while (at < end && kBlanks.find(*at) != kBlanks.npos) ++at;
+    while (at < end && kXmlBlanks.find(*at) != kXmlBlanks.npos) ++at;
     if (at < end && *at == '+') ++at;
     Parsed value{};
     const auto [next, fault] = std::from_chars(at, end, value);
-    if (fault != std::errc() || (next < end && kBlanks.find(*next) == kBlanks.npos))
+    if (fault != std::errc() || (next < end && kXmlBlanks.find(*next) == kXmlBlanks.npos))
       RefuseDamaged();
     if constexpr (!std::is_floating_point_v<Stored>)
       if (!std::in_range<Stored>(value)) RefuseDamaged();

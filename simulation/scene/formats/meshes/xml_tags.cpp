@@ -6,9 +6,7 @@
 namespace arthro {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
-
-bool IsBlank(char letter) { return kBlanks.find(letter) != kBlanks.npos; }
+bool IsBlank(char letter) { return kXmlBlanks.find(letter) != kXmlBlanks.npos; }
 
 bool IsOfName(char letter) {
   return !IsBlank(letter) && std::string_view("=<>/\"'&").find(letter) == std::string_view::npos;
@@ -48,10 +46,10 @@ bool XmlTags::Next(XmlTag& tag) {
   while (!is_broken_) {
     const std::size_t open = text_.find('<', at_);
     if (open == text_.npos) {
-      is_broken_ = text_.find_first_not_of(kBlanks, at_) != text_.npos;
+      is_broken_ = text_.find_first_not_of(kXmlBlanks, at_) != text_.npos;
       return false;
     }
-    if (tag.text_before.find_first_not_of(kBlanks) == tag.text_before.npos)
+    if (tag.text_before.find_first_not_of(kXmlBlanks) == tag.text_before.npos)
       tag.text_before = text_.substr(at_, open - at_);
     const std::string_view rest = text_.substr(open);
     const bool is_comment = rest.starts_with("<!--");

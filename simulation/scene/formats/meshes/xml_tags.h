@@ -10,6 +10,8 @@
 
 namespace arthro {
 
+inline constexpr std::string_view kXmlBlanks = " \t\r\n";
+
 struct XmlTag {
   std::string_view name;
   std::vector<std::pair<std::string_view, std::string>> attributes;

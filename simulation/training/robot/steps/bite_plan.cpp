@@ -16,7 +16,7 @@ constexpr double kGrid = 4e-4;      // m, of the points that stand for the tissu
 constexpr double kAround = 2.5e-3;  // m about the regions in which the rest of the tissue counts
 constexpr double kBlocked = 0.5;    // cost of a point in the way of a jaw
 constexpr double kNeck = 4e-4;      // m about a bite, in which what is left holds nothing
-constexpr int kRolls = 24;
+constexpr int kBiteRolls = 24;
 constexpr double kMiddles = 7e-4;  // m, between places of a bite
 constexpr double kBeyond = 1e-3;   // m, of such a place outside of the regions
 
@@ -191,8 +191,8 @@ Bite BestBite(std::span<const TissuePoint> points, std::span<const glm::dvec3> m
     ToolInput input;
     input.is_present = true;
     input.opening = 1;
-    for (int i = 0; i < kRolls; ++i) {
-      const double roll = 2 * std::numbers::pi * i / kRolls;
+    for (int i = 0; i < kBiteRolls; ++i) {
+      const double roll = 2 * std::numbers::pi * i / kBiteRolls;
       input.portal_from_tool = PortalFromTool(portal, tip, roll);
       std::array<Capsule, kMaxCapsules> jaws;
       const auto count = static_cast<std::size_t>(PosedCapsules(shape, input, jaws));

@@ -10,6 +10,9 @@
 
 namespace arthro::simulation {
 
+inline constexpr double kSettle = 0.2;        // s, waited beyond the end of a path or a time
+inline constexpr double kFarthestLook = 0.1;  // m from the eye to what it works on
+
 struct RobotMind {
   RobotJoint& joint;
   RobotHandsMover& hands;
@@ -30,6 +33,11 @@ struct RobotMind {
   PoseSearch Search(const std::vector<TargetPlace>& places) const;
   void Trouble(const std::string& sentence);
 };
+
+// The instrument as it was in the last frame.
+inline const ToolFrame& InstrumentOf(const RobotMind& mind) {
+  return mind.joint.frame().tool[Index(DeviceRole::kInstrument)];
+}
 
 // Waits until the step is over, at most so long. Returns false where it still runs.
 bool WaitForStep(RobotMind& mind, double seconds);

@@ -14,9 +14,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kSettle = 0.2;        // s, beyond the end of the path
-constexpr double kOffPath = 1.2;       // times the error that a criterion allows
-constexpr double kFarthestLook = 0.1;  // m
+constexpr double kOffPath = 1.2;  // times the error that a criterion allows
 
 std::vector<glm::dvec3> PathOf(const RobotMind& mind, const std::vector<std::string>& ids) {
   std::vector<glm::dvec3> path;

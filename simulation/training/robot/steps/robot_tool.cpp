@@ -14,9 +14,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kSettle = 0.2;
 constexpr double kAbove = 6e-3;         // m over a surface, from where a tip approaches
-constexpr double kFarthestLook = 0.1;   // m
 constexpr double kApproach = 10e-3;     // m/s without contact
 constexpr double kFeels = 0.05;         // N, from which the hand feels a contact
 constexpr double kPressSpeed = 6e-3;    // m/s per N that is missing
@@ -24,10 +22,6 @@ constexpr double kFastestPress = 5e-3;  // m/s
 constexpr double kDeepest = 0.03;       // m behind the surface
 constexpr double kTries = 8.0;          // s, for a force to be reached and held
 constexpr double kTouch = 0.4;          // N, of a light touch
-
-const ToolFrame& InstrumentOf(const RobotMind& mind) {
-  return mind.joint.frame().tool[Index(DeviceRole::kInstrument)];
-}
 
 // Roll that turns the hook of a probe away from a surface.
 double RollAwayFrom(const RobotMind& mind, const glm::dvec3& x, const glm::dvec3& normal) {

@@ -21,16 +21,12 @@ constexpr double kRests = 0.4;      // s, in which tip and tissue come to rest b
 constexpr double kJaws = 0.3;       // s, in which jaws close or open
 constexpr double kYields = 1.0;     // N at the tip, from which the hand yields
 // Costs of a point of the rest, per point of the regions, from a careful bite to a bold one.
-constexpr std::array kRest = {4.0, 2.0, 1.0, 0.5};
+constexpr std::array kPauses = {4.0, 2.0, 1.0, 0.5};
 // Share of what is left of the regions that a bite takes, before the next bolder one is tried.
 constexpr double kWorthwhile = 0.08;
 constexpr double kTried = 1e-3;   // m about a bite that was not worth it, in which none is tried
 constexpr double kLeast = 2e-10;  // m³; a bite that takes less is not tried there again
 constexpr int kMostBites = 60;
-
-const ToolFrame& InstrumentOf(const RobotMind& mind) {
-  return mind.joint.frame().tool[Index(DeviceRole::kInstrument)];
-}
 
 // Brings the drawn tip to where it is wanted, against what holds it.
 void Settle(RobotMind& mind, const glm::dvec3& tip) {
@@ -118,10 +114,10 @@ struct Resection {
   std::vector<Ball> regions;  // to bite, frame of the body
   ToolShape shape = ShapeOf(ToolKind::kPunch);
   // Middles of bites that are still to be tried, per cost of a point of the rest.
-  std::array<std::vector<glm::dvec3>, kRest.size()> middles = EveryMiddle();
+  std::array<std::vector<glm::dvec3>, kPauses.size()> middles = EveryMiddle();
 
-  std::array<std::vector<glm::dvec3>, kRest.size()> EveryMiddle() const {
-    std::array<std::vector<glm::dvec3>, kRest.size()> each;
+  std::array<std::vector<glm::dvec3>, kPauses.size()> EveryMiddle() const {
+    std::array<std::vector<glm::dvec3>, kPauses.size()> each;
     each.fill(MiddlesOf(regions, portal_from_body));
     return each;
   }
@@ -148,9 +144,9 @@ struct Resection {
     const double wanted =
         static_cast<double>(std::ranges::count_if(points, &TissuePoint::is_wanted));
     std::pair<Bite, std::size_t> small;
-    for (std::size_t cost = 0; cost < kRest.size(); ++cost) {
+    for (std::size_t cost = 0; cost < kPauses.size(); ++cost) {
       const Bite bite =
-          BestBite(points, middles[cost], mind.joint.instrument_portal(), shape, kRest[cost]);
+          BestBite(points, middles[cost], mind.joint.instrument_portal(), shape, kPauses[cost]);
       if (bite.gain > kWorthwhile * wanted) return {bite, cost};
       if (bite.gain > 0 && small.first.gain <= 0) small = {bite, cost};
     }
@@ -190,7 +186,7 @@ void TakeBite(Resection& work, const Bite& bite, std::size_t cost, bool is_carel
   if (!mind.hands.Lead(DeviceRole::kInstrument, begin)) return;
   if (SlideTo(mind, pose.depth)) Settle(mind, bite.tip);
   if (!mind.hands.Wait(kRests)) return;
-  if (is_careless || work.IsWorthIt(std::max(kRest[cost], 1.0))) {
+  if (is_careless || work.IsWorthIt(std::max(kPauses[cost], 1.0))) {
     const double before = TakenSoFar(mind).all();
     mind.hands.Close(true, kJaws);
     if (TakenSoFar(mind).all() - before < kLeast)

@@ -15,9 +15,7 @@ namespace {
 
 constexpr double kMargin = 1e-3;  // m, within the distances that a step allows
 constexpr double kAngleMargin = RadiansFromDegrees(5);
-constexpr double kSettle = 0.2;        // s, beyond the time that a step asks for
-constexpr double kBeside = 0.2;        // radii of the picture, of a target that is off the centre
-constexpr double kFarthestLook = 0.1;  // m
+constexpr double kBeside = 0.2;  // radii of the picture, of a target that is off the centre
 
 TargetPlace PlaceOfTarget(const RobotMind& mind, int target) {
   TargetPlace place = mind.joint.places()[static_cast<std::size_t>(target)];

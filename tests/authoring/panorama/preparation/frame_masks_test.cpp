@@ -12,7 +12,7 @@ using namespace arthro::authoring;
 
 namespace {
 
-constexpr int kSize = 220;
+constexpr int kFrameSize = 220;
 
 double ShareIn(const cv::Mat& mask, const cv::Mat& region) {
   return static_cast<double>(cv::countNonZero(mask & region)) /
@@ -21,9 +21,9 @@ double ShareIn(const cv::Mat& mask, const cv::Mat& region) {
 
 // A clip that moves `step` px per frame, with text and a spot of dirt fixed to the camera.
 ClipLook LookAtClip(int frames, double step, bool has_marks, cv::Mat* marks) {
-  *marks = cv::Mat::zeros(kSize, kSize, CV_8U);
+  *marks = cv::Mat::zeros(kFrameSize, kFrameSize, CV_8U);
   cv::putText(*marks, "KNEE 7", {60, 80}, cv::FONT_HERSHEY_SIMPLEX, 0.7, 255, 2);
-  cv::Mat dirt = cv::Mat::zeros(kSize, kSize, CV_8U);
+  cv::Mat dirt = cv::Mat::zeros(kFrameSize, kFrameSize, CV_8U);
   cv::circle(dirt, {140, 150}, 5, 255, -1);
   ClipLookBuilder builder;
   for (int i = 0; i < frames; ++i) {
@@ -32,13 +32,13 @@ ClipLook LookAtClip(int frames, double step, bool has_marks, cv::Mat* marks) {
     look.dy = 0.4 * step * i;
     look.noise = 2;
     look.seed = i;
-    cv::Mat rgb = test::MakeFrame(kSize, look);
+    cv::Mat rgb = test::MakeFrame(kFrameSize, look);
     if (has_marks) {
       rgb.setTo(cv::Scalar(230, 230, 90), *marks);
       cv::Mat darker = rgb * 0.7;
       darker.copyTo(rgb, dirt);
     }
-    builder.Add(rgb, test::RoundWindow(kSize));
+    builder.Add(rgb, test::RoundWindow(kFrameSize));
   }
   *marks |= dirt;
   return builder.Finish();
@@ -49,20 +49,22 @@ ClipLook LookAtClip(int frames, double step, bool has_marks, cv::Mat* marks) {
 TEST(FrameMasks, GlintsAreFoundAndTissueIsKept) {
   test::FrameLook look;
   look.noise = 2;
-  cv::Mat rgb = test::MakeFrame(kSize, look), glints = cv::Mat::zeros(kSize, kSize, CV_8U);
+  cv::Mat rgb = test::MakeFrame(kFrameSize, look),
+          glints = cv::Mat::zeros(kFrameSize, kFrameSize, CV_8U);
   for (int i = 0; i < 12; ++i) cv::circle(glints, {60 + 9 * i, 70 + (i * 37) % 80}, 2, 255, -1);
-  const cv::Mat before = HighlightMask(rgb, test::RoundWindow(kSize));
-  EXPECT_LT(ShareIn(before, test::RoundWindow(kSize)), 0.01);
+  const cv::Mat before = HighlightMask(rgb, test::RoundWindow(kFrameSize));
+  EXPECT_LT(ShareIn(before, test::RoundWindow(kFrameSize)), 0.01);
   rgb.setTo(cv::Scalar(250, 245, 240), glints);
-  const cv::Mat after = HighlightMask(rgb, test::RoundWindow(kSize));
+  const cv::Mat after = HighlightMask(rgb, test::RoundWindow(kFrameSize));
   EXPECT_GT(ShareIn(after, glints), 0.99);
   // A disc of radius 2 grown by 2 has three times its area; half as much again is allowed.
   EXPECT_LT(cv::countNonZero(after), 4.5 * cv::countNonZero(glints) + cv::countNonZero(before));
 }
 
 TEST(FrameMasks, AnInstrumentIsFoundAndPaleTissueIsNot) {
-  const cv::Mat window = test::RoundWindow(kSize);
-  cv::Mat rgb = test::MakeFrame(kSize, {}), shaft = cv::Mat::zeros(kSize, kSize, CV_8U);
+  const cv::Mat window = test::RoundWindow(kFrameSize);
+  cv::Mat rgb = test::MakeFrame(kFrameSize, {}),
+          shaft = cv::Mat::zeros(kFrameSize, kFrameSize, CV_8U);
   EXPECT_EQ(cv::countNonZero(ToolMask(rgb, window)), 0);
   // Cartilage: pale, nearly colourless, but without straight sides.
   cv::Mat pale = rgb.clone();
@@ -83,13 +85,13 @@ TEST(FrameMasks, TextAndDirtThatStayWhileTissueMovesAreMarks) {
   EXPECT_GT(ShareIn(look.static_marks, marks), 0.95);
   cv::Mat around;
   cv::dilate(marks, around, cv::getStructuringElement(cv::MORPH_ELLIPSE, {17, 17}));
-  EXPECT_LT(ShareIn(look.static_marks, test::RoundWindow(kSize) & ~around), 0.01);
+  EXPECT_LT(ShareIn(look.static_marks, test::RoundWindow(kFrameSize) & ~around), 0.01);
 }
 
 TEST(FrameMasks, AClipWithoutMarksHasNone) {
   cv::Mat marks;
   const ClipLook look = LookAtClip(16, 13.0, false, &marks);
-  const cv::Mat window = test::RoundWindow(kSize);
+  const cv::Mat window = test::RoundWindow(kFrameSize);
   EXPECT_LT(look.static_marks.empty() ? 0 : ShareIn(look.static_marks, window), 0.005);
 }
 
@@ -105,8 +107,9 @@ TEST(ClipLook, TheSharedLightIsTheFalloff) {
   // exp(-1.2 r²) under gamma 2.2: the logarithm drops by 1.2 / 2.2 from the centre to r = 1.
   cv::Mat marks;
   const ClipLook look = LookAtClip(16, 13.0, false, &marks);
-  const double drop = look.light.at<float>(kSize / 2, kSize / 2) -
-                      look.light.at<float>(kSize / 2, kSize / 2 + static_cast<int>(0.4 * kSize));
+  const double drop =
+      look.light.at<float>(kFrameSize / 2, kFrameSize / 2) -
+      look.light.at<float>(kFrameSize / 2, kFrameSize / 2 + static_cast<int>(0.4 * kFrameSize));
   EXPECT_NEAR(drop, 1.2 / 2.2 * 0.8 * 0.8, 0.05);
 }
 

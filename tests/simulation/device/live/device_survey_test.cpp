@@ -9,16 +9,16 @@
 namespace arthro::simulation {
 namespace {
 
-using test::FakeUsb;
+const std::string kSurveyed = "/dev/fake0";
 
-const std::string kPath = "/dev/fake0";
+using test::FakeUsb;
 
 TEST(DeviceSurvey, ListsDevicesWithTheirObstacles) {
   test::TempFolder folder;
   FakeUsb usb;
   const auto bus = MachineHidBus();
   EXPECT_TRUE(SurveyDevices(*bus, "", folder.path()).devices.empty());
-  usb.Plug(test::WoodenArm(L"A", kPath));
+  usb.Plug(test::WoodenArm(L"A", kSurveyed));
   usb.Plug({0x256f, 0xc635, 1, 8, 0, false, L"7", L"", "/dev/fake1"});
   usb.Plug({0x256f, 0xc635, 1, 8, 0, false, L"8", L"", "/dev/fake2"});
   usb.Plug({0x046d, 0xc077, 1, 2, 0, false, L"", L"a mouse", "/dev/fake3"});
@@ -37,16 +37,16 @@ TEST(DeviceSurvey, ListsDevicesWithTheirObstacles) {
   const DeviceSurvey named = SurveyDevices(*bus, "polhem_v1", folder.path());
   EXPECT_TRUE(named.devices[0].can_be_used);
   EXPECT_TRUE(HasForce(named.devices[0].caps));
-  EXPECT_TRUE(usb.Written(kPath).empty()) << "nobody was spoken to";
-  EXPECT_EQ(usb.opened(kPath), 0);
+  EXPECT_TRUE(usb.Written(kSurveyed).empty()) << "nobody was spoken to";
+  EXPECT_EQ(usb.opened(kSurveyed), 0);
   EXPECT_EQ(usb.misuses(), 0);
 }
 
 TEST(DeviceTrial, AnAnsweringArmPassesWithoutForce) {
   test::TempFolder folder;
   FakeUsb usb;
-  test::Board board(usb, kPath);
-  usb.Plug(test::WoodenArm(L"A", kPath));
+  test::Board board(usb, kSurveyed);
+  usb.Plug(test::WoodenArm(L"A", kSurveyed));
   LiveOptions options;
   options.lock_folder = folder.path();
   const auto bus = MachineHidBus();
@@ -57,14 +57,14 @@ TEST(DeviceTrial, AnAnsweringArmPassesWithoutForce) {
   EXPECT_NEAR(trial.rate, static_cast<double>(trial.taken) / trial.seconds, 1e-9);
   EXPECT_EQ(trial.rejected, 0);
   EXPECT_EQ(trial.has_passed, trial.rate >= 800 && trial.full_rings == 0) << trial.sentence;
-  for (const auto& report : usb.Written(kPath)) EXPECT_EQ(report, test::Bytes(15));
+  for (const auto& report : usb.Written(kSurveyed)) EXPECT_EQ(report, test::Bytes(15));
 }
 
 TEST(DeviceTrial, InvalidReportsFailIt) {
   test::TempFolder folder;
   FakeUsb usb;
-  usb.OnWrite(kPath, [&](const test::Bytes&) { usb.Send(kPath, test::Bytes(13)); });
-  usb.Plug(test::WoodenArm(L"A", kPath));
+  usb.OnWrite(kSurveyed, [&](const test::Bytes&) { usb.Send(kSurveyed, test::Bytes(13)); });
+  usb.Plug(test::WoodenArm(L"A", kSurveyed));
   LiveOptions options;
   options.lock_folder = folder.path();
   const auto bus = MachineHidBus();

@@ -7,11 +7,11 @@
 namespace arthro::simulation {
 namespace {
 
+const std::string kArmPath = "/dev/fake0";
+
 using test::Bytes;
 using test::FakeUsb;
 using test::WaitUntil;
-
-const std::string kPath = "/dev/fake0";
 
 struct Bench {
   Bench(DeviceFamily family, const test::FakeHid& hid) {
@@ -32,7 +32,7 @@ struct Bench {
   }
   void Send(const Bytes& report) {
     const LinkCounts was = link->counts();
-    usb.Send(kPath, report);
+    usb.Send(kArmPath, report);
     ASSERT_TRUE(WaitUntil([&] { return link->counts().taken > was.taken; }));
   }
   DeviceSample Tick(int hand = 0, bool is_held = false, const glm::dvec3& force = {}) {
@@ -51,7 +51,7 @@ struct Bench {
 };
 
 TEST(LiveSpaceMouse, LeadsAHandAndRestsWhenSilent) {
-  Bench bench(DeviceFamily::kSpaceMouse, {0x256f, 0xc635, 1, 8, 0, false, L"7", L"", kPath});
+  Bench bench(DeviceFamily::kSpaceMouse, {0x256f, 0xc635, 1, 8, 0, false, L"7", L"", kArmPath});
   for (int i = 0; i < 5; ++i) bench.Tick();
   EXPECT_EQ(bench.devices[0]->state(), DeviceState::kReady) << "it speaks only when it is pushed";
   EXPECT_EQ(bench.Tick().hip_in_device, glm::dvec3(0.0));
@@ -65,7 +65,7 @@ TEST(LiveSpaceMouse, LeadsAHandAndRestsWhenSilent) {
   EXPECT_TRUE(rest.valid);
   bench.Send({1, 0, 0, 0, 0, 0, 0});
   EXPECT_EQ(bench.Tick().hip_in_device, rest.hip_in_device);
-  bench.usb.Unplug(kPath);
+  bench.usb.Unplug(kArmPath);
   ASSERT_TRUE(WaitUntil([&] { return !bench.link->is_present(); }));
   EXPECT_FALSE(bench.Tick().valid);
 }
@@ -76,8 +76,8 @@ TEST(LiveHydra, StartsAfterRetriesAndHasTwoHands) {
     test::TempFolder folder;
     FakeUsb ports;
     usb = &ports;
-    ports.Plug({0x1532, 0x0300, 0, 0, 0, false, L"", L"Hydra", kPath});
-    ports.FailFeatures(kPath, 3);
+    ports.Plug({0x1532, 0x0300, 0, 0, 0, false, L"", L"Hydra", kArmPath});
+    ports.FailFeatures(kArmPath, 3);
     LiveOptions options;
     options.clock = test::BenchSeconds;
     options.lock_folder = folder.path();
@@ -87,14 +87,14 @@ TEST(LiveHydra, StartsAfterRetriesAndHasTwoHands) {
     ASSERT_EQ(link->hands(), 2);
     LiveDevice left(link, 0), right(link, 1);
     ASSERT_TRUE(WaitUntil([&] { return link->opening() != 0; }));
-    EXPECT_EQ(usb->Features(kPath).size(), 1u) << "three failed";
+    EXPECT_EQ(usb->Features(kArmPath).size(), 1u) << "three failed";
     Bytes report(52);
     report[8] = 10, report[15] = 0x7f, report[14] = 0xff;
     report[30] = 20, report[37] = 0x7f, report[36] = 0xff;
     DeviceSample first, second;
     for (int i = 0; i < 5; ++i) {
       const long taken = link->counts().taken;
-      usb->Send(kPath, report);
+      usb->Send(kArmPath, report);
       ASSERT_TRUE(WaitUntil([&] { return link->counts().taken > taken; }));
       test::AdvanceBench(4e-3);
       first = left.Read(test::BenchSeconds());
@@ -108,17 +108,17 @@ TEST(LiveHydra, StartsAfterRetriesAndHasTwoHands) {
 }
 
 TEST(LiveHydra, IsStoppedAtTheEnd) {
-  Bench bench(DeviceFamily::kHydra, {0x1532, 0x0300, 0, 0, 0, false, L"", L"Hydra", kPath});
+  Bench bench(DeviceFamily::kHydra, {0x1532, 0x0300, 0, 0, 0, false, L"", L"Hydra", kArmPath});
   bench.devices.clear();
   bench.link.reset();
-  const auto features = bench.usb.Features(kPath);
+  const auto features = bench.usb.Features(kArmPath);
   ASSERT_EQ(features.size(), 2u);
   EXPECT_EQ(features[0][9], 3);
   EXPECT_EQ(features[1][9], 0);
 }
 
 TEST(LivePad, RumblesAtMost60TimesPerSecondAndStopsAtOnce) {
-  Bench bench(DeviceFamily::kDualSense, {0x054c, 0x0ce6, 1, 5, 3, false, L"", L"", kPath});
+  Bench bench(DeviceFamily::kDualSense, {0x054c, 0x0ce6, 1, 5, 3, false, L"", L"", kArmPath});
   Bytes report(64);
   report[0] = 1, report[8] = 0x28;
   bench.Send(report);
@@ -127,7 +127,7 @@ TEST(LivePad, RumblesAtMost60TimesPerSecondAndStopsAtOnce) {
   EXPECT_EQ(bench.Tick().buttons, 1u) << "of a device without a hand the buttons still count";
   const auto rumbles = [&] {
     long count = 0;
-    for (const Bytes& written : bench.usb.Written(kPath)) count += written[4] > 0;
+    for (const Bytes& written : bench.usb.Written(kArmPath)) count += written[4] > 0;
     return count;
   };
   // One second of bench time, independent of machine time.
@@ -139,20 +139,20 @@ TEST(LivePad, RumblesAtMost60TimesPerSecondAndStopsAtOnce) {
   EXPECT_LE(rumbles(), 61);
   bench.Tick();
   EXPECT_TRUE(WaitUntil([&] {
-    const auto written = bench.usb.Written(kPath);
+    const auto written = bench.usb.Written(kArmPath);
     return !written.empty() && written.back()[4] == 0;
   }));
 }
 
 TEST(LiveLink, OpensAFreeDeviceOfTheFamily) {
-  Bench bench(DeviceFamily::kSpaceMouse, {0x256f, 0xc635, 1, 8, 0, false, L"7", L"", kPath});
+  Bench bench(DeviceFamily::kSpaceMouse, {0x256f, 0xc635, 1, 8, 0, false, L"7", L"", kArmPath});
   bench.usb.Plug({0x256f, 0xc635, 1, 8, 0, false, L"8", L"", "/dev/fake1"});
   LiveOptions options;
   options.list_every = 0.02;
   options.lock_folder = bench.folder.path();
   LiveLink second(*bench.bus, DeviceRequest{DeviceFamily::kSpaceMouse, "", ""}, options);
   ASSERT_TRUE(WaitUntil([&] { return second.opening() != 0; }));
-  EXPECT_EQ(bench.usb.opened(kPath), 1);
+  EXPECT_EQ(bench.usb.opened(kArmPath), 1);
   EXPECT_EQ(bench.usb.opened("/dev/fake1"), 1);
 }
 

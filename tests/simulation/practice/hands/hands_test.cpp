@@ -19,13 +19,14 @@
 #include "simulation/scope/rod_pose.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr double kFrame = 1.0 / 60;
+using test::kFrame;
 
 // Socket of the bus: its device, the reports of the device and those written to it.
 struct Socket {

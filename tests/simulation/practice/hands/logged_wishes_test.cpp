@@ -12,11 +12,12 @@
 #include "simulation/practice/replay/replay.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;
+using test::kFrame;
 
 // A loose body of 4 mm, 30 mm in front of the instrument's portal; the scene begins with the probe.
 LoadedScene LooseBody() {

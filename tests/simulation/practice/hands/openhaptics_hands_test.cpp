@@ -19,6 +19,7 @@
 #include "tests/support/fake_openhaptics.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
@@ -26,7 +27,7 @@ namespace {
 using test::FakeTouch;
 using test::OpenHaptics;
 
-constexpr double kFrame = 1.0 / 60;
+using test::kFrame;
 constexpr DeviceRole kInstrument = DeviceRole::kInstrument;
 
 // Scheduler thread of the library, about 1 kHz.

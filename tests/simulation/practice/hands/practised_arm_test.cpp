@@ -17,11 +17,12 @@
 #include "tests/support/fake_hidapi.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;
+using test::kFrame;
 
 // A force device holds the scope 20 mm behind the wall, on the clock of the machine.
 class PractisedArm : public testing::Test {

@@ -11,14 +11,16 @@
 
 #include "simulation/core/error.h"
 #include "simulation/core/process_cost.h"
+#include "simulation/core/units.h"
 #include "tests/simulation/tissue/field/closed_manifold.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kMm = 1e-3, kFrame = 1.0 / 60.0;
+using test::kFrame;
 
 // Loose body: a ball of 5 mm about the origin, somewhere in the joint.
 ImplicitSpec LooseBody() {

@@ -10,11 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/simulation/tissue/body/meniscus_body.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;  // s
+using test::kFrame;
 
 // The rod stands inside the free edge, in the middle of the crescent (its +x), and points down. The
 // hook points outwards, under the edge. The tip's height is that of the hook's underside.

@@ -14,11 +14,13 @@
 #include "simulation/tissue/contact/tool_contact.h"
 #include "simulation/tissue/solver/implicit_solver.h"
 #include "tests/simulation/tissue/contact/slab.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kFrame = 1.0 / 60, kRadius = 0.75e-3;
+using test::kFrame;
+constexpr double kRadius = 0.75e-3;
 
 // Slab of 0.5 MPa, 20 × 20 mm, fixed where `is_held` says, with what is needed to press tools into
 // it.

@@ -9,10 +9,9 @@
 #include "simulation/tissue/body/deformable_body.h"
 #include "tests/simulation/tissue/contact/slab.h"
 #include "tests/simulation/tissue/cut/mesh_boundary.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::test {
-
-inline constexpr double kFrame = 1.0 / 60.0;  // s
 
 inline simulation::BodySpec SlabBody() {
   simulation::BodySpec spec;

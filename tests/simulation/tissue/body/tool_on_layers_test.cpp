@@ -14,13 +14,14 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "simulation/core/units.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kMm = 1e-3, kPi = std::numbers::pi, kSpring = 500.0;
+constexpr double kPi = std::numbers::pi, kSpring = 500.0;
 constexpr double kThick = 2.5 * kMm, kNu = 0.45, kE = 1.5e6;
 
 ElasticLayer Cartilage() {

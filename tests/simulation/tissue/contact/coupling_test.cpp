@@ -15,6 +15,7 @@
 
 #include "simulation/core/random.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
@@ -288,7 +289,7 @@ TEST(Coupling, NonFiniteValuesAreFaultyAndGiveNoForce) {
 
 // Hand at 0.2 m/s; one tissue step per frame, one missing, and one that ends the contact.
 TEST(CouplingBlend, ForceIsContinuousForLateAndEarlySteps) {
-  constexpr double kTick = 0.001, kFrame = 1.0 / 60, kSpeed = 0.2;
+  constexpr double kSpeed = 0.2;
   const Bulge bulge{{0.01, 0.02, 0.01}, 0.0205, 300, 1.3};
   CouplingBlend blend;
   glm::dvec3 last(0.0);
@@ -299,7 +300,7 @@ TEST(CouplingBlend, ForceIsContinuousForLateAndEarlySteps) {
   std::uint64_t step = 0;
   double largest_change = 0;  // between couplings, at the tip when the new one arrived
   for (int tick = 0; tick < 600; ++tick) {
-    const double t = tick * kTick;
+    const double t = tick * test::kTick;
     if (t >= next) {
       ToolCoupling coupling = CouplingOf(bulge, tip_at(t));
       coupling.step = ++step;
@@ -308,16 +309,16 @@ TEST(CouplingBlend, ForceIsContinuousForLateAndEarlySteps) {
         largest_change =
             std::max(largest_change, glm::length(ForceOf(coupling, blend.tip).force - last));
       TakeCoupling(blend, coupling);
-      next += step % 7 == 0 ? 2 * kFrame : step % 5 == 0 ? 0.5 * kFrame : kFrame;
+      next += step % 7 == 0 ? 2 * test::kFrame : step % 5 == 0 ? 0.5 * test::kFrame : test::kFrame;
     }
-    const glm::dvec3 force = BlendedForce(blend, tip_at(t), kTick, kFrame).force;
+    const glm::dvec3 force = BlendedForce(blend, tip_at(t), test::kTick, test::kFrame).force;
     if (tick > 0) largest = std::max(largest, glm::length(force - last));
     largest_level = std::max(largest_level, glm::length(force));
     last = force;
   }
   // Bound per tick: the hand's motion against the spring, and a frame's fraction of the change
   // between couplings.
-  const double bound = kSpring * kSpeed * kTick + largest_change * kTick / kFrame;
+  const double bound = kSpring * kSpeed * test::kTick + largest_change * test::kTick / test::kFrame;
   std::printf("blend: largest step %.4f N of %.2f N, bound %.4f N\n", largest, largest_level,
               bound);
   EXPECT_GT(largest_level, 0.1);

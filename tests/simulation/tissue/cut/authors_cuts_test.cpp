@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/error.h"
+#include "simulation/core/units.h"
 #include "simulation/tissue/contact/embedded_skin.h"
 #include "simulation/tissue/cut/cutters.h"
 #include "simulation/tissue/solver/implicit_solver.h"
@@ -17,9 +18,6 @@
 
 namespace arthro::simulation {
 namespace {
-
-using test::kMm;
-using test::kMm3;
 
 // Tear across the whole block at x = 6.1 mm, from its top at z = 4 mm down.
 TearCut TearAcross(double depth) {

@@ -7,13 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/core/units.h"
 #include "simulation/tissue/cut/cut_mesh.h"
 #include "tests/support/shapes.h"
 #include "tests/support/tissue/tissue_meshes.h"
 
 namespace arthro::test {
-
-inline constexpr double kMm = 1e-3, kMm3 = 1e-9;
 
 // Block of 12 × 8 × 4 mm in cells of 2 mm, six elements each, and its field.
 inline TetMesh CutBlock(int order) {

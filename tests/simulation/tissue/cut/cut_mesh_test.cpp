@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/process_cost.h"
+#include "simulation/core/units.h"
 #include "simulation/tissue/fem/fem_model.h"
 #include "tests/simulation/tissue/cut/cut_checks.h"
 #include "tests/simulation/tissue/cut/mesh_boundary.h"
@@ -20,8 +21,6 @@ namespace arthro::simulation {
 namespace {
 
 using test::ExpectSound;
-using test::kMm;
-using test::kMm3;
 using test::SameTopology;
 using Shape = std::function<double(const glm::dvec3&)>;
 

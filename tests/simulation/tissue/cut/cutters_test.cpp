@@ -11,6 +11,7 @@
 
 #include "simulation/core/error.h"
 #include "simulation/core/process_cost.h"
+#include "simulation/core/units.h"
 #include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/tissue/field/pieces.h"
 #include "tests/support/build_paths.h"
@@ -19,7 +20,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kMm = 1e-3, kMm3 = 1e-9, kPi = std::numbers::pi;
+constexpr double kPi = std::numbers::pi;
 
 // Block of 12 × 8 × 4 mm with its top at z = 0.
 SolidField Block(double spacing = 0.3 * kMm) {

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "simulation/core/units.h"
 #include "simulation/tissue/cut/cutters.h"
 #include "simulation/tissue/fem/fem_model.h"
 #include "simulation/tissue/field/pieces.h"
@@ -23,11 +24,9 @@
 namespace arthro::simulation {
 namespace {
 
-using test::kMm;
-using test::kMm3;
 using Shape = std::function<double(const glm::dvec3&)>;
 
-double Sum(const std::vector<double>& values) {
+double SumOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
@@ -43,7 +42,7 @@ TEST(Fem13, PieceCutFreeIsDetectedAndKeepsVolumeAndMomentum) {
     const CutMesh& cut = cutter.Update(field, edit.changed);
     test::ExpectSound(cut, whole);
     ASSERT_EQ(cut.piece_count(), 2);
-    EXPECT_NEAR(Sum(cut.piece_volume) + cut.removed_volume, volume, 1e-12 * volume);
+    EXPECT_NEAR(SumOf(cut.piece_volume) + cut.removed_volume, volume, 1e-12 * volume);
     // The body is held at x = 0: the field reports the same piece as loose.
     const FieldPieces pieces = PiecesOf(field);
     ASSERT_EQ(pieces.count(), 2);
@@ -66,7 +65,7 @@ TEST(Fem13, PieceCutFreeIsDetectedAndKeepsVolumeAndMomentum) {
       momentum += p;
       if (free_nodes.contains(static_cast<int>(i))) of_free_piece += p;
     }
-    const double mass = material.density * Sum(cut.piece_volume);
+    const double mass = material.density * SumOf(cut.piece_volume);
     EXPECT_LT(glm::length(momentum - mass * drift), 1e-12 * mass);
     EXPECT_LT(glm::length(of_free_piece - material.density * cut.piece_volume[1] * drift),
               1e-12 * mass)
@@ -83,7 +82,7 @@ TEST(Fem13, PieceCutFreeIsDetectedAndKeepsVolumeAndMomentum) {
     EXPECT_EQ(clean.piece_count(), 1);
     EXPECT_EQ(clean.crumbs, 1);
     EXPECT_NEAR(clean.crumb_volume, cut.piece_volume[1], 1e-12 * volume);
-    EXPECT_NEAR(Sum(clean.piece_volume) + clean.removed_volume, volume, 1e-12 * volume);
+    EXPECT_NEAR(SumOf(clean.piece_volume) + clean.removed_volume, volume, 1e-12 * volume);
   }
 }
 
@@ -128,14 +127,15 @@ TEST(Fem14, DegeneratePlanesGiveTheTopologyOfShiftedPlanes) {
       for (const double moved : {1e-9, -1e-9}) {
         const CutMesh other = cut_at(moved);
         EXPECT_TRUE(test::SameTopology(cut, other)) << plane.name << " moved by " << moved;
-        EXPECT_NEAR(Sum(other.piece_volume), Sum(cut.piece_volume), 1e-5 * volume) << plane.name;
+        EXPECT_NEAR(SumOf(other.piece_volume), SumOf(cut.piece_volume), 1e-5 * volume)
+            << plane.name;
       }
-      EXPECT_NEAR(Sum(cut.piece_volume) + cut.removed_volume, volume, 1e-12 * volume);
+      EXPECT_NEAR(SumOf(cut.piece_volume) + cut.removed_volume, volume, 1e-12 * volume);
       // Each tetrahedron is a whole one of the mesh, with positive volume and a valid model.
       const FemModel cut_model(cut.mesh, {}, cut.share);
       for (const double mass : cut_model.mass()) EXPECT_GT(mass, 0.0);
       if (plane.normal.x == 1) {
-        EXPECT_NEAR(Sum(cut.piece_volume), offset * 32 * kMm * kMm, 1e-6 * volume)
+        EXPECT_NEAR(SumOf(cut.piece_volume), offset * 32 * kMm * kMm, 1e-6 * volume)
             << "a plane is cut exactly";
       }
     }
@@ -155,7 +155,7 @@ TEST(Fem14, CrossingSlotsOnFacesSplitTheBlockInFour) {
   ASSERT_EQ(cut.piece_count(), 4);
   for (const double v : cut.piece_volume)
     EXPECT_NEAR(v, 5.7 * 3.7 * 4 * kMm3, 0.01 * 5.7 * 3.7 * 4 * kMm3);
-  EXPECT_NEAR(Sum(cut.piece_volume) + cut.removed_volume, volume, 1e-12 * volume);
+  EXPECT_NEAR(SumOf(cut.piece_volume) + cut.removed_volume, volume, 1e-12 * volume);
 }
 
 // The two remaining parts touch only along an edge of the mesh, or at one node.
@@ -301,7 +301,7 @@ TEST(Fem22, TwoHundredCutsKeepAValidMeshAndFlatMemory) {
       if (round > 0) continue;
       test::ExpectSound(cut, whole);
       if (HasFatalFailure()) FAIL() << "after cut " << i;
-      ASSERT_NEAR(Sum(cut.piece_volume) + cut.removed_volume, volume, 1e-12 * volume) << i;
+      ASSERT_NEAR(SumOf(cut.piece_volume) + cut.removed_volume, volume, 1e-12 * volume) << i;
       ASSERT_GE(cut.removed_volume, last_removed - 1e-12 * volume) << i;
       last_removed = cut.removed_volume;
       most_pieces = std::max(most_pieces, cut.piece_count());

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "simulation/core/units.h"
 #include "simulation/tissue/field/pieces.h"
 #include "simulation/tissue/field/polygonise.h"
 #include "tests/simulation/tissue/field/closed_manifold.h"
@@ -17,7 +18,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kMm = 1e-3, kSpacing = 0.35 * kMm, kRadius = 5 * kMm, kBite = 1.5 * kMm;
+constexpr double kSpacing = 0.35 * kMm, kRadius = 5 * kMm, kBite = 1.5 * kMm;
 const glm::dvec3 kCentre = glm::dvec3(5, 0, 0) * kMm;
 
 double FromBite(const glm::dvec3& x) { return glm::distance(x, kCentre) - kBite; }

@@ -9,12 +9,11 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "simulation/core/units.h"
 #include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
-
-constexpr double kMm = 1e-3;
 
 SolidField BallField(double radius, double spacing) {
   return SolidField::FromFunction({glm::dvec3(-radius - kMm), glm::dvec3(radius + kMm)}, spacing,

@@ -8,13 +8,12 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "simulation/core/units.h"
 #include "simulation/tissue/field/polygonise.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
 namespace {
-
-constexpr double kMm = 1e-3, kMm3 = 1e-9;
 
 // Bar of 12 × 4 × 4 mm.
 SolidField Bar() {

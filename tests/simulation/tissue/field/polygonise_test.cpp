@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/process_cost.h"
+#include "simulation/core/units.h"
 #include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/tissue/field/cell_patches.h"
 #include "tests/simulation/tissue/field/closed_manifold.h"
@@ -19,7 +20,6 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kMm = 1e-3;
 using Shape = std::function<double(const glm::dvec3&)>;
 
 double Sphere(const glm::dvec3& x) { return glm::length(x) - 5 * kMm; }

@@ -11,6 +11,7 @@
 
 #include "simulation/core/error.h"
 #include "simulation/core/process_cost.h"
+#include "simulation/core/units.h"
 #include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/build_paths.h"
@@ -20,7 +21,6 @@ namespace arthro::simulation {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kMm = 1e-3, kMm3 = 1e-9;
 
 double ToBall(const glm::dvec3& x, const glm::dvec3& centre, double radius) {
   return glm::length(x - centre) - radius;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRadius = 5e-4;  // m, bar at the side of a punch
 
-glm::dvec3 Any(Random& random, double size) {
+glm::dvec3 AnyVector(Random& random, double size) {
   const auto u = [&] { return random.Uniform(-size, size); };
   return {u(), u(), u()};
 }
@@ -29,11 +29,11 @@ ContactPoint BarOver(Random& random) {
   contact.a = {-1e-3, 0, 0};
   contact.b = {1e-3, 0, 0};
   contact.radius = kRadius;
-  contact.normal = glm::normalize(glm::dvec3(0, 0, -1) + Any(random, 0.2));
+  contact.normal = glm::normalize(glm::dvec3(0, 0, -1) + AnyVector(random, 0.2));
   contact.stiffness = 5e3;
   contact.friction = 0.3;
   contact.owner = 0;
-  contact.start = Any(random, 1e-3);
+  contact.start = AnyVector(random, 1e-3);
   return contact;
 }
 
@@ -44,8 +44,8 @@ TEST(ContactSpring, ForceIsTheDerivativeOfTheEnergyAroundABar) {
   int past = 0, inside = 0;
   for (int i = 0; i < 2000; ++i) {
     const ContactPoint contact = BarOver(random);
-    const glm::dvec3 point = Any(random, 1.2e-3) * glm::dvec3(1, 0.5, 0.5);
-    const glm::dvec3 pressing = Any(random, 2.0);
+    const glm::dvec3 point = AnyVector(random, 1.2e-3) * glm::dvec3(1, 0.5, 0.5);
+    const glm::dvec3 pressing = AnyVector(random, 2.0);
     const ContactSpring spring = SpringAt(contact, point, glm::dvec3(0.0), pressing);
     for (int axis = 0; axis < 3; ++axis) {
       glm::dvec3 step(0.0);
@@ -71,7 +71,7 @@ TEST(ContactSpring, EnergyIsContinuousAcrossTheAxis) {
     const ContactPoint contact = BarOver(random);
     const glm::dvec3 beside =
         random.Uniform(0, kRadius) *
-        glm::normalize(glm::cross(contact.normal, glm::dvec3(1, 0, 0) + Any(random, 0.3)));
+        glm::normalize(glm::cross(contact.normal, glm::dvec3(1, 0, 0) + AnyVector(random, 0.3)));
     const double x = random.Uniform(-8e-4, 8e-4);
     const auto energy = [&](double side) {
       return SpringAt(contact, glm::dvec3(x, 0, 0) + beside + side * contact.normal,

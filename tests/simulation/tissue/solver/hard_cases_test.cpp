@@ -11,6 +11,7 @@
 
 #include "simulation/core/random.h"
 #include "tests/simulation/tissue/solver/solver_bodies.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
@@ -19,7 +20,7 @@ using test::LargestDistance;
 using test::Meniscus;
 using test::SolverBody;
 
-constexpr double kFrame = 1.0 / 60;
+using test::kFrame;
 
 struct Recovery {
   double distance = 0;  // largest node distance from the exact answer, over the bounding diagonal

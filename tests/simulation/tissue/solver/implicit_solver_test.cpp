@@ -10,6 +10,7 @@
 #include "simulation/core/error.h"
 #include "tests/simulation/tissue/solver/solver_bodies.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/ticks.h"
 
 namespace arthro::simulation {
 namespace {
@@ -19,7 +20,7 @@ using test::Meniscus;
 using test::PressAt;
 using test::SolverBody;
 
-constexpr double kFrame = 1.0 / 60;
+using test::kFrame;
 
 double CpuMs() {
   timespec t;
