@@ -15,6 +15,7 @@
 #include "authoring/depth/imaged_area.h"
 #include "authoring/depth/light_falloff.h"
 #include "authoring/depth/masked_median.h"
+#include "authoring/depth/steps/step_width.h"
 #include "simulation/core/error.h"
 #include "simulation/core/option_fields.h"
 
@@ -175,9 +176,13 @@ DepthMap ReliefByDistance(const std::vector<float>& distance, const GreyPlane& p
   return depth;
 }
 
-void Taper(DepthMap& depth, const GreyPlane& plane, const DepthOptions& options) {
-  TaperToBorder(depth, plane.imaged,
-                0.01 * options.border_taper * std::min(plane.width, plane.height));
+// Shape that brightness does not show: of what changes at once, and of what the border cuts.
+void SmoothEdges(DepthMap& depth, const GreyPlane& plane, const DepthOptions& options) {
+  const double percent = 0.01 * std::min(plane.width, plane.height);  // px
+  // A step alone gets half of the steepest slope.
+  if (const double width = options.step_width * percent; width >= 1.0)
+    LimitSteepness(depth, 2.0 * (options.near_relief - options.far_relief) / width);
+  TaperToBorder(depth, plane.imaged, options.border_taper * percent);
 }
 
 }  // namespace
@@ -236,7 +241,7 @@ DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& option
     DepthMap depth =
         ReliefByDistance(DistanceFromLight(panorama, plane, highlight, options, progress), plane,
                          imaged, options, told);
-    Taper(depth, plane, options);
+    SmoothEdges(depth, plane, options);
     progress.Step("done", 1.0);
     return depth;
   }
@@ -259,7 +264,7 @@ DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& option
   told.low_grey = low / 256.0;
   told.high_grey = high / 256.0;
   DepthMap depth = Apply(ReliefByGrey(low, high, options), plane);
-  Taper(depth, plane, options);
+  SmoothEdges(depth, plane, options);
   progress.Step("done", 1.0);
   return depth;
 }

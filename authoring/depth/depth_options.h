@@ -37,6 +37,7 @@ struct DepthOptions {
   int surround_threshold = 12;
   int border_margin = 3;
   double border_taper = 6.0;
+  double step_width = 15.0;
   bool fill_highlights = true;
   bool correct_tissue = true;
   double field_of_view = RadiansFromDegrees(90);
@@ -83,6 +84,10 @@ struct DepthOptions {
       "Band along the border of the imaged area in which the relief goes over to its broad mean, "
       "as a share of the picture's shorter side. What the border cuts has no known shape. 0: "
       "none.");
+    v("step_width", step_width, Range{0, 100}, "%",
+      "Least width of a step of the whole relief, as a share of the picture's shorter side. A wall "
+      "between bright and dark tissue is mostly none, and smears when it is seen from the side. 0: "
+      "as narrow as the picture has it.");
     v("fill_highlights", fill_highlights, Any{}, "",
       "Fill highlights from their surroundings, so that they make no peaks.");
     v("correct_tissue", correct_tissue, Any{}, "",

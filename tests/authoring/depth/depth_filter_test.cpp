@@ -31,7 +31,7 @@ DepthOptions Plain(DepthLaw law = DepthLaw::kLinear) {
   options.high_percentile = 100;
   options.median_radius = 0;
   options.border_margin = 0;
-  options.border_taper = 0;
+  options.border_taper = options.step_width = 0;
   options.surround_threshold = 0;
   options.fill_highlights = false;
   return options;

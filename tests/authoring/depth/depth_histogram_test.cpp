@@ -28,7 +28,7 @@ TEST(DepthHistogram, CountsTheGreysOfTheImagedPixels) {
   DepthOptions options;
   options.median_radius = 0;
   options.border_margin = 0;
-  options.border_taper = 0;
+  options.border_taper = options.step_width = 0;
   DepthReport report;
   for (const DepthEstimator estimator : {DepthEstimator::kPaper, DepthEstimator::kShading}) {
     options.estimator = estimator;

@@ -103,7 +103,12 @@ MicroGroup DepthMicro(bool quick) {
                }});
       }
   const auto knee = MadeOnce(MakeKnee);
-  for (Estimator& estimator : Estimators(2.2, 0)) {
+  std::vector<Estimator> of_knee = Estimators(2.2, 0);
+  of_knee.push_back({"paper, steps as narrow as in the picture", of_knee[1].options});
+  of_knee.back().options.step_width = 0;
+  of_knee.push_back({"paper, step width 30 %", of_knee[1].options});
+  of_knee.back().options.step_width = 30;
+  for (Estimator& estimator : of_knee) {
     // The panorama is equirectangular.
     estimator.options.field_of_view = RadiansFromDegrees(150);
     group.functions.push_back({fmt::format("digital knee, {}", estimator.name),
