@@ -112,7 +112,7 @@ std::string RunByName(EditorState& state, const std::string& id, const fs::path&
     if (!state.dialogs.empty())
       return fmt::format("\"{}\" waits for {}", id, WordsOf(state.dialogs.back()));
     if (!command.enabled(state))
-      return fmt::format("\"{}\" cannot be called now: {}", id, WhyNot(state, command));
+      return fmt::format("\"{}\" cannot be called now. {}", id, WhyNot(state, command));
     Run(state, command);
     if (file.empty()) return "";
     if (!state.dialogs.empty() && !std::holds_alternative<BrowseDialog>(state.dialogs.back()))

@@ -11,8 +11,6 @@
 #include "simulation/core/options_json.h"
 
 namespace arthro::app {
-namespace {}  // namespace
-
 std::string TableOf(const ReliefBench& bench) {
   std::string table = fmt::format(
       "# relief: speed against error | {} | seed {}, {} touches\n"

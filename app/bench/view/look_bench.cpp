@@ -29,7 +29,7 @@ constexpr std::array kDepths{0.24, 0.4};  // share of the radius
 constexpr int kMostFrames = 24;
 constexpr int kCircleFrames = 12;
 
-// PartExtent of the imaged part between its 2nd and 98th percentile, rad.
+// Extent of the imaged part between its 2nd and 98th percentile, rad.
 struct PartExtent {
   double low = 0, high = 0;
   double at(double share) const { return low + share * (high - low); }

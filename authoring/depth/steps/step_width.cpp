@@ -10,8 +10,8 @@
 namespace arthro::authoring {
 namespace {
 
-// The highest relief below `relief` that is nowhere steeper, in two passes [Borgefors 1986]; with
-// `sign` −1 the lowest above it, of values that are negated.
+// Highest relief below `depth` that is nowhere steeper, in two passes [Borgefors 1986]. With `sign`
+// −1 the lowest above it, negated.
 std::vector<float> Envelope(const DepthMap& depth, double steepest, float sign) {
   const int width = depth.width, height = depth.height;
   const auto straight = static_cast<float>(steepest);

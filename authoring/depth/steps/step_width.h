@@ -9,7 +9,7 @@ namespace arthro::authoring {
 
 // Makes the relief, m, the mean of the highest relief below it and the lowest above it that nowhere
 // change by more than `steepest`, m per px. A step alone so gets half of that slope. Lengths are
-// those of ways along rows, columns and diagonals, at most 8 % too long. Unknown pixels stay, and
+// those of ways along rows, columns and diagonals, at most 9 % too long. Unknown pixels stay, and
 // ways lead round them. A relief that is no steeper stays as it is, bit for bit. A `steepest` that
 // is not above 0, or is no number, changes nothing.
 void LimitSteepness(DepthMap& depth, double steepest);

@@ -10,8 +10,6 @@
 #include "simulation/core/units.h"
 
 namespace arthro::authoring {
-namespace {}  // namespace
-
 Crescent MakeCrescent(const Cavity& cavity) {
   Random random(0x3E415C05ull + cavity.seed);
   Crescent c;

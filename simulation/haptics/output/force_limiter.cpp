@@ -8,8 +8,6 @@
 #include "simulation/core/finite.h"
 
 namespace arthro::simulation {
-namespace {}  // namespace
-
 LimitedForce LimitForce(const LimiterOptions& options, const glm::dvec3& force, double hand_speed,
                         Fault fault, double dt, LimiterState& state) noexcept {
   if (fault == Fault::kNone && !(IsFinite(force) && std::isfinite(hand_speed)))

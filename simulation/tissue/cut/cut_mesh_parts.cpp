@@ -8,8 +8,6 @@
 #include "simulation/tissue/fem/tet_shape.h"
 
 namespace arthro::simulation {
-namespace {}  // namespace
-
 glm::dvec3 MeshCutter::PlaceOf(int e, int point) const {
   const auto nodes = NodesOf(e);
   const auto& value = shape_[level_[At(e)]][At(point)];
