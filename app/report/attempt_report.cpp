@@ -1,5 +1,10 @@
 #include "app/report/attempt_report.h"
 
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "app/plot/svg_text.h"
@@ -130,15 +135,40 @@ std::string CriteriaOf(const AttemptReport& report) {
          "</div>\n";
 }
 
+std::string Joined(const std::vector<std::string>& words) {
+  return XmlText(fmt::format("{}", fmt::join(words, "; ")));
+}
+
+// A row for each metric that has a value or one of others to compare with. The rest are named:
+// those that are zero, and those that were not measured, by the reason.
 std::string MetricsOf(const AttemptReport& report) {
   std::vector<Cells> rows;
+  std::vector<std::string> zeros;
+  std::vector<std::pair<std::string, std::vector<std::string>>> missing;
   for (const MetricRow& metric : report.attempt.metrics) {
-    rows.push_back({MetricWords(metric.name, metric.part), ValueWords(metric.value, metric.unit),
-                    metric.why_none});
-    AddOthers(report, rows.back(), GroupWords(report, metric.name, metric.part, metric.unit),
-              ExpertWords(report, metric.name, metric.part, metric.unit));
+    const std::string words = MetricWords(metric.name, metric.part),
+                      group = GroupWords(report, metric.name, metric.part, metric.unit),
+                      expert = ExpertWords(report, metric.name, metric.part, metric.unit);
+    if (group.empty() && expert.empty() && !metric.value) {
+      auto reason =
+          std::ranges::find(missing, metric.why_none, [](const auto& m) { return m.first; });
+      if (reason == missing.end()) reason = missing.insert(reason, {metric.why_none, {}});
+      reason->second.push_back(words);
+    } else if (group.empty() && expert.empty() && *metric.value == 0.0) {
+      zeros.push_back(words);
+    } else {
+      const std::string value = ValueWords(metric.value, metric.unit);
+      rows.push_back({words, metric.value ? value : value + ": " + metric.why_none});
+      AddOthers(report, rows.back(), group, expert);
+    }
   }
-  return Table(Head(report, {"Metric", "Value", "Reason for a missing value"}), rows);
+  std::string html;
+  if (!rows.empty()) html += Table(Head(report, {"Metric", "Value"}), rows);
+  if (!zeros.empty()) html += fmt::format("<p class=\"small\">Zero: {}.</p>\n", Joined(zeros));
+  for (const auto& [reason, names] : missing)
+    html += fmt::format("<p class=\"small\">Not measured{}: {}.</p>\n",
+                        reason.empty() ? "" : " (" + XmlText(reason) + ")", Joined(names));
+  return html;
 }
 
 std::string EventsOf(const AttemptReport& report) {

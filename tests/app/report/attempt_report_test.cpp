@@ -28,7 +28,7 @@ TEST(AttemptReport, StatesOutcomeCriteriaAndSources) {
   for (const char* words :
        {"Not passed. The force on the instrument was 9.1 N; 8.5 N are allowed.",
         "Peak force (instrument)", "at most 8.5 N", "✗ not met", "✓ met", "PMC3023859",
-        "own start value (start value)", "The tip was never in the joint.", "not measured"})
+        "own start value (start value)", "The tip was never in the joint.", "Not measured"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
@@ -140,6 +140,39 @@ TEST(AttemptReport, JsonFollowsItsSchema) {
             AssessmentSchema())
       << "run `arthroscene records check --assessment-schema > "
          "resources/schemas/assessment-1.schema.json`";
+}
+
+// Rows of zeros and of what was not measured filled two of six pages.
+TEST(AttemptReport, NamesZerosAndWhatWasNotMeasuredWithoutRows) {
+  AttemptReport report = SampleReport();
+  report.attempt.metrics = {{"peak_force", "instrument", "N", "", 9.1, 1},
+                            {"peak_force", "scope", "N", "", 0.0, 1},
+                            {"mean_force", "scope", "N", "the tool touched nothing", {}, 0},
+                            {"drops", "instrument", "", "", 0.0, 1},
+                            {"contour_error", "instrument", "m", "nothing <was> cut", {}, 0},
+                            {"rim_left", "instrument", "m", "nothing <was> cut", {}, 0}};
+  std::string page = AttemptPage(report);
+  EXPECT_NE(page.find("<td>Peak force (instrument)</td><td>9.1 N</td></tr>"), std::string::npos);
+  EXPECT_NE(page.find("<p class=\"small\">Zero: Peak force (scope); Drops (instrument).</p>"),
+            std::string::npos);
+  EXPECT_NE(
+      page.find(
+          "<p class=\"small\">Not measured (the tool touched nothing): Mean force (scope).</p>"),
+      std::string::npos);
+  EXPECT_NE(page.find("<p class=\"small\">Not measured (nothing &lt;was&gt; cut): "),
+            std::string::npos);
+
+  // A zero that others can be compared with has a row.
+  report.expert = {{"drops", "instrument", "", "", 2.0, 1}};
+  page = AttemptPage(report);
+  EXPECT_NE(page.find("<td>Drops (instrument)</td><td>0</td><td>2</td></tr>"), std::string::npos);
+
+  report.attempt.metrics.resize(2);
+  report.attempt.metrics.erase(report.attempt.metrics.begin());
+  report.expert.clear();
+  page = AttemptPage(report);
+  EXPECT_NE(page.find("<h2>Metrics</h2>\n<p class=\"small\">Zero: Peak force (scope).</p>"),
+            std::string::npos);
 }
 
 TEST(AttemptReport, ShowsTheMiddleHalfAndZOfAReferenceGroup) {
