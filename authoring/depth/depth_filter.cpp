@@ -176,13 +176,19 @@ DepthMap ReliefByDistance(const std::vector<float>& distance, const GreyPlane& p
   return depth;
 }
 
-// Shape that brightness does not show: of what changes at once, and of what the border cuts.
-void SmoothEdges(DepthMap& depth, const GreyPlane& plane, const DepthOptions& options) {
-  const double percent = 0.01 * std::min(plane.width, plane.height);  // px
+// 1 % of the picture's shorter side, px.
+double PercentOf(const GreyPlane& plane) { return 0.01 * std::min(plane.width, plane.height); }
+
+void Taper(DepthMap& depth, const GreyPlane& plane, const DepthOptions& options) {
+  TaperToBorder(depth, plane.imaged, options.border_taper * PercentOf(plane));
+}
+
+// Grey takes bright tissue for near. The other estimators divide by the tissue's colour, and their
+// steps are steps of the light.
+void WidenSteps(DepthMap& depth, const GreyPlane& plane, const DepthOptions& options) {
+  const double width = options.step_width * PercentOf(plane);
   // A step alone gets half of the steepest slope.
-  if (const double width = options.step_width * percent; width >= 1.0)
-    LimitSteepness(depth, 2.0 * (options.near_relief - options.far_relief) / width);
-  TaperToBorder(depth, plane.imaged, options.border_taper * percent);
+  if (width >= 1.0) LimitSteepness(depth, 2.0 * (options.near_relief - options.far_relief) / width);
 }
 
 }  // namespace
@@ -241,7 +247,7 @@ DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& option
     DepthMap depth =
         ReliefByDistance(DistanceFromLight(panorama, plane, highlight, options, progress), plane,
                          imaged, options, told);
-    SmoothEdges(depth, plane, options);
+    Taper(depth, plane, options);
     progress.Step("done", 1.0);
     return depth;
   }
@@ -264,7 +270,8 @@ DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& option
   told.low_grey = low / 256.0;
   told.high_grey = high / 256.0;
   DepthMap depth = Apply(ReliefByGrey(low, high, options), plane);
-  SmoothEdges(depth, plane, options);
+  WidenSteps(depth, plane, options);
+  Taper(depth, plane, options);
   progress.Step("done", 1.0);
   return depth;
 }

@@ -5,7 +5,7 @@ namespace arthro::authoring {
 bool HasEffect(const DepthOptions& options, std::string_view field) {
   const bool is_grey = options.estimator == DepthEstimator::kPaper;
   const bool is_shading = options.estimator == DepthEstimator::kShading;
-  if (field.ends_with("_weight") || field == "law") return is_grey;
+  if (field.ends_with("_weight") || field == "law" || field == "step_width") return is_grey;
   if (field == "gamma") return !is_grey || options.law == DepthLaw::kInverseSquare;
   if (field == "correct_tissue" || field == "vignette") return !is_grey;
   // A vignette ends at the rim of the field.
