@@ -16,6 +16,11 @@
 
 namespace arthro::app {
 
+// The scene as its file would be.
+inline std::string Print(const EditorState& state) {
+  return PrettyJson(JsonFromScene(state.document().scene));
+}
+
 class Commands : public testing::Test {
  protected:
   void Open() {

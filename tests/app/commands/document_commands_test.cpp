@@ -18,10 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Print(const EditorState& state) {
-  return PrettyJson(JsonFromScene(state.document().scene));
-}
-
 TEST_F(Commands, OpenEditUndoRedoSaveAndOpenAgainGivesTheSameScene) {
   Open();
   EXPECT_TRUE(state.history.IsSaved());

@@ -13,10 +13,6 @@
 namespace arthro::app {
 namespace {
 
-std::string PrintOf(const EditorState& state) {
-  return PrettyJson(JsonFromScene(state.document().scene));
-}
-
 TEST(Film, APictureBecomesNumberedPictures) {
   EXPECT_EQ(NumberedPictures("a/practice.png"), "a/practice-%04d.png");
   EXPECT_EQ(NumberedPictures("a/frame-%03d.png"), "a/frame-%03d.png");
@@ -28,7 +24,7 @@ TEST_F(Commands, PracticeLeavesTheEditorExactlyAsItWas) {
   SetIncisionSpacing(state, 0.02);
   state.step = Step::kTissue;
   state.scope.latitude = 0.1;
-  const std::string before = PrintOf(state);
+  const std::string before = Print(state);
   const auto scope = state.scope;
   const int position = state.history.Position();
 
@@ -43,7 +39,7 @@ TEST_F(Commands, PracticeLeavesTheEditorExactlyAsItWas) {
   app::Run(state, "leave-practice");
 
   EXPECT_FALSE(state.practice);
-  EXPECT_EQ(PrintOf(state), before);
+  EXPECT_EQ(Print(state), before);
   EXPECT_EQ(state.history.Position(), position);
   EXPECT_EQ(state.step, Step::kTissue);
   EXPECT_EQ(state.scope.latitude, scope.latitude);

@@ -16,7 +16,7 @@ using app::CameraFeatures;
 using app::Picture;
 using app::PictureFromPose;
 
-constexpr int kSize = 256;
+constexpr int kPassSize = 256;
 constexpr LensCamera kNothing{0, 0, 0, 0};
 
 class CameraPassView : public ViewTest {
@@ -30,7 +30,7 @@ class CameraPassView : public ViewTest {
     picture.features = CameraFeatures::kFringe;
     return picture;
   }
-  ColourImage Drawn(const Picture& picture, int size = kSize) {
+  ColourImage Drawn(const Picture& picture, int size = kPassSize) {
     view_->Render(picture, size);
     return view_->ReadPixels();
   }
@@ -90,15 +90,15 @@ TEST_F(CameraPassView, OcclusionDarkensTheFootOfAStep) {
   picture.features = CameraFeatures::kOcclusion;
   const ColourImage with = Drawn(picture);
   // Light of both pictures, relative to the middle of the level part on the left.
-  constexpr int kRow = kSize / 2, kLevel = kSize / 4;
+  constexpr int kRow = kPassSize / 2, kLevel = kPassSize / 4;
   const auto light = [&](const ColourImage& image, int x) {
     return double(image.at(x, kRow)[1]) / image.at(kLevel, kRow)[1];
   };
   double darkest = 1.0;
-  for (int x = kSize / 8; x < kSize * 7 / 8; ++x) {
+  for (int x = kPassSize / 8; x < kPassSize * 7 / 8; ++x) {
     const double share = light(with, x) / light(without, x);
     darkest = std::min(darkest, share);
-    if (std::abs(x - kSize / 2) > kSize / 8) {
+    if (std::abs(x - kPassSize / 2) > kPassSize / 8) {
       EXPECT_NEAR(share, 1.0, 0.02) << x;
     }
   }
@@ -170,7 +170,7 @@ TEST_F(CameraPassView, NoiseOfADepthMapIsNotShaded) {
     const ColourImage with = Drawn(picture);
     int changed = 0;
     for (std::size_t i = 0; i < with.rgb.size(); i += 3) changed += with.rgb[i] != without.rgb[i];
-    return static_cast<double>(changed) / (kSize * kSize);
+    return static_cast<double>(changed) / (kPassSize * kPassSize);
   };
   const double known = shaded(0.19e-3f), noisy = shaded(0.21e-3f);
   std::printf("shaded in known depths: %.1f %%, in noise: %.1f %%\n", 100 * known, 100 * noisy);
@@ -227,7 +227,7 @@ TEST_F(CameraPassView, InterpolatedFringeIsThatOfTheFilter) {
   Picture picture = PictureFromPose({-0.1, 0.1, 0.2, 0.01}, 0.5, std::numbers::pi / 2);
   picture.camera = LensCamera();
   picture.camera->grain = 0;
-  picture.camera->fringe = 1.6 / kSize;
+  picture.camera->fringe = 1.6 / kPassSize;
   const ColourImage interpolated = Drawn(picture);
   picture.camera->fringe *= 1.0001;
   const ColourImage filtered = Drawn(picture);
@@ -251,7 +251,7 @@ TEST_F(CameraPassView, CentreIsSharperThanTheRim) {
     const ColourImage image = Drawn(Forward(Halves(1024, 1024, column), camera));
     int most = 0;
     for (int x = from; x < to; ++x)
-      most = std::max(most, image.at(x + 1, kSize / 2)[1] - image.at(x, kSize / 2)[1]);
+      most = std::max(most, image.at(x + 1, kPassSize / 2)[1] - image.at(x, kPassSize / 2)[1]);
     return most;
   };
   LensCamera soft = kNothing, sharp = kNothing;
@@ -277,8 +277,8 @@ TEST_F(CameraPassView, EdgeHasNoHalo) {
     const ColourImage without = Drawn(Forward(panorama, kNothing));
     const ColourImage with = Drawn(Forward(panorama, sharp));
     int most = 0;
-    for (int y = kSize / 4; y < kSize * 3 / 4; ++y)
-      for (int x = kSize / 4; x < kSize * 3 / 4; ++x)
+    for (int y = kPassSize / 4; y < kPassSize * 3 / 4; ++y)
+      for (int x = kPassSize / 4; x < kPassSize * 3 / 4; ++x)
         most = std::max(most, std::abs(with.at(x, y)[1] - without.at(x, y)[1]));
     const double gain = view_->exposure().gain;
     std::printf("largest halo: %d levels at a gain of %.2f\n", most, gain);
@@ -357,11 +357,11 @@ TEST_F(CameraPassView, StairsOfModelsAreSmoothed) {
   view_->SetTissues(tissues, loaded.surfaces);
   Picture picture = PictureFromPose({-0.12, 0.05, 0.2, 0.01}, 0.5, std::numbers::pi / 2);
   picture.relief = app::kUsualRelief;
-  const ColourImage fine = Drawn(picture, 4 * kSize);
-  ColourImage reference(kSize, kSize);
-  std::vector<bool> is_edge(static_cast<std::size_t>(kSize) * kSize);
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
+  const ColourImage fine = Drawn(picture, 4 * kPassSize);
+  ColourImage reference(kPassSize, kPassSize);
+  std::vector<bool> is_edge(static_cast<std::size_t>(kPassSize) * kPassSize);
+  for (int y = 0; y < kPassSize; ++y)
+    for (int x = 0; x < kPassSize; ++x) {
       std::array<int, 3> sum{};
       int low = 255, high = 0;
       for (int k = 0; k < 16; ++k) {
@@ -371,15 +371,16 @@ TEST_F(CameraPassView, StairsOfModelsAreSmoothed) {
       }
       for (std::size_t c = 0; c < 3; ++c)
         reference.at(x, y)[c] = static_cast<std::uint8_t>((sum[c] + 8) / 16);
-      is_edge[static_cast<std::size_t>(y) * kSize + static_cast<std::size_t>(x)] =
+      is_edge[static_cast<std::size_t>(y) * kPassSize + static_cast<std::size_t>(x)] =
           high - low > 25 && std::hypot(x - 127.5, y - 127.5) < 118;
     }
   const auto error = [&](const ColourImage& drawn) {
     double squares = 0;
     int count = 0;
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x) {
-        if (!is_edge[static_cast<std::size_t>(y) * kSize + static_cast<std::size_t>(x)]) continue;
+    for (int y = 0; y < kPassSize; ++y)
+      for (int x = 0; x < kPassSize; ++x) {
+        if (!is_edge[static_cast<std::size_t>(y) * kPassSize + static_cast<std::size_t>(x)])
+          continue;
         squares += std::pow(drawn.at(x, y)[1] - reference.at(x, y)[1], 2);
         ++count;
       }
@@ -416,13 +417,13 @@ TEST_F(CameraPassView, FourRaysPerPixelGiveThePictureItsOwnSize) {
   Picture picture = Forward(Halves(1024, 1024, 512), LensCamera());
   picture.rays = 2;
   const ColourImage image = Drawn(picture);
-  EXPECT_EQ(image.width, kSize);
-  EXPECT_EQ(view_->ReadDistances().size(), std::size_t{4} * kSize * kSize);
+  EXPECT_EQ(image.width, kPassSize);
+  EXPECT_EQ(view_->ReadDistances().size(), std::size_t{4} * kPassSize * kPassSize);
   picture.rays = 1;
   const ColourImage once = Drawn(picture);
   // The exposure must not jump when a picture at rest gets its four rays.
-  EXPECT_NEAR(image.at(60, kSize / 2)[1], once.at(60, kSize / 2)[1], 4);
-  EXPECT_NEAR(image.at(200, kSize / 2)[1], once.at(200, kSize / 2)[1], 4);
+  EXPECT_NEAR(image.at(60, kPassSize / 2)[1], once.at(60, kPassSize / 2)[1], 4);
+  EXPECT_NEAR(image.at(200, kPassSize / 2)[1], once.at(200, kPassSize / 2)[1], 4);
 }
 
 // The smoothing of edges has marks of its own size, which must not bound a larger picture.
@@ -434,9 +435,9 @@ TEST_F(CameraPassView, PicturesWithoutSmoothingAreWholeAfterASmallerOneWithIt) {
   smoothed.features = CameraFeatures::kEdges;
   const ColourImage whole = Drawn(still), whole_fringed = Drawn(fringed);
   for (int round = 0; round < 2; ++round) {
-    Drawn(smoothed, kSize / 2);
+    Drawn(smoothed, kPassSize / 2);
     EXPECT_EQ(Drawn(still).rgb, whole.rgb);
-    Drawn(smoothed, kSize / 2);
+    Drawn(smoothed, kPassSize / 2);
     EXPECT_EQ(Drawn(fringed).rgb, whole_fringed.rgb);
   }
 }

@@ -17,7 +17,7 @@ using app::PointerEvent;
 using Kind = PointerEvent::Kind;
 using Button = PointerEvent::Button;
 
-constexpr int kSize = 400;
+constexpr int kOverviewSize = 400;
 
 class OverviewTest : public ViewTest {
  protected:
@@ -37,7 +37,7 @@ class OverviewTest : public ViewTest {
       ++calls_;
       finished_ += finished ? 1 : 0;
     };
-    overview_->Render(kSize, kSize);
+    overview_->Render(kOverviewSize, kOverviewSize);
   }
   void TearDown() override {
     overview_.reset();
@@ -51,7 +51,7 @@ class OverviewTest : public ViewTest {
       event.x = at.x;
       event.y = at.y;
       overview_->Handle(event);
-      overview_->Render(kSize, kSize);
+      overview_->Render(kOverviewSize, kOverviewSize);
     };
     send(Kind::kMove, from);
     send(Kind::kPress, from);
@@ -63,21 +63,22 @@ class OverviewTest : public ViewTest {
   std::unique_ptr<Overview> overview_;
   Pose pose_;
   int calls_ = 0, finished_ = 0;
-  const glm::dvec2 middle_{kSize / 2.0, kSize / 2.0};
+  const glm::dvec2 middle_{kOverviewSize / 2.0, kOverviewSize / 2.0};
 };
 
 TEST_F(OverviewTest, DrawsOnlyWhenSomethingChanged) {
-  EXPECT_FALSE(overview_->Render(kSize, kSize));
-  EXPECT_TRUE(overview_->Render(kSize, kSize - 1)) << "another size";
-  EXPECT_FALSE(overview_->Render(kSize, kSize - 1));
+  EXPECT_FALSE(overview_->Render(kOverviewSize, kOverviewSize));
+  EXPECT_TRUE(overview_->Render(kOverviewSize, kOverviewSize - 1)) << "another size";
+  EXPECT_FALSE(overview_->Render(kOverviewSize, kOverviewSize - 1));
   overview_->SetIncisionSpacing(-0.02);
-  EXPECT_TRUE(overview_->Render(kSize, kSize - 1));
+  EXPECT_TRUE(overview_->Render(kOverviewSize, kOverviewSize - 1));
   overview_->ChooseTissue(0);
-  EXPECT_TRUE(overview_->Render(kSize, kSize - 1));
+  EXPECT_TRUE(overview_->Render(kOverviewSize, kOverviewSize - 1));
   overview_->ChooseTissue(0);
-  EXPECT_FALSE(overview_->Render(kSize, kSize - 1)) << "chosen already";
+  EXPECT_FALSE(overview_->Render(kOverviewSize, kOverviewSize - 1)) << "chosen already";
   overview_->ChooseTissue(17);
-  EXPECT_TRUE(overview_->Render(kSize, kSize - 1)) << "no such tissue: none is chosen";
+  EXPECT_TRUE(overview_->Render(kOverviewSize, kOverviewSize - 1))
+      << "no such tissue: none is chosen";
 }
 
 // The relief as it is drawn has fewer pixels than the panorama and lies at the same place: of a
@@ -87,7 +88,7 @@ TEST_F(OverviewTest, AMapOfLargerPixelsLiesAtThePlaceOfThePanorama) {
   const int width = scene_.panorama->width, height = scene_.panorama->height;
   const auto drawn = [&](int factor) {
     overview_->SetRelief(DepthMap(width / factor, height / factor, 0.006f), scene_.scene.backdrop);
-    overview_->Render(kSize, kSize);
+    overview_->Render(kOverviewSize, kOverviewSize);
     return overview_->ReadPixels();
   };
   const ColourImage fine = drawn(1);
@@ -126,7 +127,7 @@ TEST_F(OverviewTest, LabelsGrowWithTheInterfaceScale) {
 
 TEST_F(OverviewTest, DraggingTheCentreOfTheBoxMovesOnlyTheTissue) {
   overview_->ChooseTissue(0);
-  overview_->Render(kSize, kSize);
+  overview_->Render(kOverviewSize, kOverviewSize);
   Drag(Button::kLeft, middle_, middle_ + glm::dvec2(40, 0));
   ASSERT_GE(calls_, 2);
   EXPECT_EQ(finished_, 1);
@@ -144,7 +145,7 @@ TEST_F(OverviewTest, DraggingTheCentreOfTheBoxMovesOnlyTheTissue) {
 
 TEST_F(OverviewTest, RightDragScalesUniformly) {
   overview_->ChooseTissue(0);
-  overview_->Render(kSize, kSize);
+  overview_->Render(kOverviewSize, kOverviewSize);
   Drag(Button::kRight, middle_, middle_ - glm::dvec2(0, 50));
   ASSERT_GE(calls_, 1);
   EXPECT_GT(std::abs(pose_.scale - 1.0), 0.05);
@@ -169,14 +170,14 @@ TEST_F(OverviewTest, PickingAPixelReturnsAPlaceOnTheTissueSurface) {
 
 TEST_F(OverviewTest, ADragOnAnArmMovesAlongItsAxisAlone) {
   overview_->ChooseTissue(0);
-  overview_->Render(kSize, kSize);
+  overview_->Render(kOverviewSize, kOverviewSize);
   const Pose start = scene_.scene.tissues[0].pose;
   for (const auto arms : {Overview::Arms::kPortal, Overview::Arms::kOwn}) {
     Pose turned = start;
     turned.quaternion = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3)));
     overview_->SetTissuePose(0, turned);
     overview_->ShowArms(arms);
-    overview_->Render(kSize, kSize);
+    overview_->Render(kOverviewSize, kOverviewSize);
     const auto ends = overview_->ArmPlaces();
     ASSERT_EQ(ends.size(), 3u);
     const glm::dvec2 way = ends[0] - *overview_->HandlePlace();
@@ -205,7 +206,7 @@ TEST_F(OverviewTest, APartHasTheHandleInsteadOfItsTissue) {
     moved = pose;
     ++calls;
   };
-  overview_->Render(kSize, kSize);
+  overview_->Render(kOverviewSize, kOverviewSize);
   EXPECT_LT(glm::distance(*overview_->HandlePlace(), *overview_->PixelOf(at.position)), 1.0);
   calls_ = 0;
   const auto ends = overview_->ArmPlaces();
@@ -221,7 +222,7 @@ TEST_F(OverviewTest, APartHasTheHandleInsteadOfItsTissue) {
   EXPECT_GT(std::abs(moved.scale / at.scale - 1.0), 0.05);
   overview_->ShowPart(nullptr, {});
   calls_ = 0;
-  overview_->Render(kSize, kSize);
+  overview_->Render(kOverviewSize, kOverviewSize);
   const glm::dvec2 of_tissue = *overview_->HandlePlace();
   Drag(Button::kLeft, of_tissue, of_tissue + glm::dvec2(20, 0));
   EXPECT_GT(calls_, 0) << "it has its handle back";
@@ -229,7 +230,7 @@ TEST_F(OverviewTest, APartHasTheHandleInsteadOfItsTissue) {
 
 TEST_F(OverviewTest, MarksAndColoursAreDrawnOnATissueAndGoAgain) {
   const auto drawn = [&] {
-    overview_->Render(kSize, kSize);
+    overview_->Render(kOverviewSize, kOverviewSize);
     return overview_->ReadPixels().rgb;
   };
   const auto before = drawn();
@@ -253,7 +254,7 @@ TEST_F(OverviewTest, MarksAndColoursAreDrawnOnATissueAndGoAgain) {
 
 TEST_F(OverviewTest, BallsAreDrawnWhereATissueIsHeldWithTheChosenOneHighlighted) {
   const auto drawn = [&] {
-    overview_->Render(kSize, kSize);
+    overview_->Render(kOverviewSize, kOverviewSize);
     return overview_->ReadPixels().rgb;
   };
   const auto before = drawn();
@@ -262,7 +263,7 @@ TEST_F(OverviewTest, BallsAreDrawnWhereATissueIsHeldWithTheChosenOneHighlighted)
   const auto held = drawn();
   EXPECT_NE(held, before);
   overview_->ShowBalls(0, balls, -1);
-  EXPECT_FALSE(overview_->Render(kSize, kSize)) << "nothing changed";
+  EXPECT_FALSE(overview_->Render(kOverviewSize, kOverviewSize)) << "nothing changed";
   overview_->ShowBalls(0, balls, 1);
   EXPECT_NE(drawn(), held);
   overview_->ShowBalls(-1, {}, -1);
@@ -275,7 +276,7 @@ TEST_F(OverviewTest, WithoutAChosenTissueADragOnlyTurnsTheView) {
   EXPECT_EQ(calls_, 0);
   EXPECT_NE(overview_->ReadPixels().rgb, before.rgb);
   overview_->ResetCamera();
-  overview_->Render(kSize, kSize);
+  overview_->Render(kOverviewSize, kOverviewSize);
   EXPECT_EQ(overview_->ReadPixels().rgb, before.rgb);
 }
 
@@ -285,7 +286,7 @@ TEST_F(OverviewTest, APoseSetElsewhereMovesTheBox) {
   pose.scale = 1.5;
   pose.quaternion = glm::dquat(std::cos(0.4), 0, 0, std::sin(0.4));
   overview_->SetTissuePose(0, pose);
-  overview_->Render(kSize, kSize);
+  overview_->Render(kOverviewSize, kOverviewSize);
   Drag(Button::kLeft, middle_, middle_ + glm::dvec2(20, 10));
   ASSERT_GE(calls_, 1);
   EXPECT_NEAR(pose_.scale, 1.5, 1e-6);
@@ -301,7 +302,7 @@ TEST_F(OverviewTest, SharesAContextWithTheArthroscopicViewWithoutInterference) {
   view.Render(picture, 200);
   const ColourImage inside = view.ReadPixels(), outside = overview_->ReadPixels();
   overview_->ResetCamera();
-  EXPECT_TRUE(overview_->Render(kSize, kSize));
+  EXPECT_TRUE(overview_->Render(kOverviewSize, kOverviewSize));
   EXPECT_EQ(overview_->ReadPixels().rgb, outside.rgb);
   view.Render(picture, 200);
   EXPECT_EQ(view.ReadPixels().rgb, inside.rgb);
@@ -315,7 +316,7 @@ TEST_F(OverviewTest, WholeSceneFromOutside) {
   overview_->SetTissuePose(0, MakeViewScene(64, 64).scene.tissues[0].pose);
   overview_->SetTools(tools);
   overview_->ChooseTissue(0);
-  overview_->Render(kSize, kSize);
+  overview_->Render(kOverviewSize, kOverviewSize);
   EXPECT_TRUE(MatchesBaseline(overview_->ReadPixels(), "overview"));
 }
 

@@ -17,8 +17,8 @@ namespace {
 using app::Picture;
 using app::PictureFromPose;
 
-constexpr double kRelief = 0.02, kHeight = 0.2e-3, kHalf = 0.35;  // m, m, rad
-constexpr int kSize = 256;
+constexpr double kRelief = 0.02, kBumpHeight = 0.2e-3, kHalf = 0.35;  // m, m, rad
+constexpr int kLightSize = 256;
 
 // Spherical cap about the portal, just over the relief, seen from the portal's side.
 SurfaceMesh Cap(double radius) {
@@ -63,7 +63,7 @@ class PlateLight : public ViewTest {
         PictureFromPose({0, -0.15, std::numbers::pi / 2, 0.0285}, RadiansFromDegrees(70), 1.5);
     picture.relief = app::kUsualRelief;
     view_->SetTissues({}, {});
-    view_->Render(picture, kSize);
+    view_->Render(picture, kLightSize);
     const ColourImage bare = view_->ReadPixels();
     const std::vector<float> ground = view_->ReadDistances();
     Tissue plate;
@@ -72,16 +72,16 @@ class PlateLight : public ViewTest {
     look.structure = simulation::TissueStructure::kHyaline;
     look.gloss = 0;
     view_->SetTissues(std::span(&plate, 1),
-                      std::vector{Share(Cap(backdrop.radius - kRelief - kHeight))},
+                      std::vector{Share(Cap(backdrop.radius - kRelief - kBumpHeight))},
                       std::span(&look, 1));
-    view_->Render(picture, kSize);
+    view_->Render(picture, kLightSize);
     const ColourImage drawn = view_->ReadPixels();
     const std::vector<float> distances = view_->ReadDistances();
     Means means;
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x) {
-        const auto i = static_cast<std::size_t>(y) * kSize + static_cast<std::size_t>(x);
-        const auto ray = ReferenceRay(picture.view, picture.field_of_view, kSize, {x, y});
+    for (int y = 0; y < kLightSize; ++y)
+      for (int x = 0; x < kLightSize; ++x) {
+        const auto i = static_cast<std::size_t>(y) * kLightSize + static_cast<std::size_t>(x);
+        const auto ray = ReferenceRay(picture.view, picture.field_of_view, kLightSize, {x, y});
         // Farther in than the fade at the relief.
         if (!ray || !(distances[i] > 0) || !(distances[i] < ground[i] - 0.1e-3)) continue;
         if (!(LinearLuma(bare.at(x, y)) > 1e-3)) continue;

@@ -19,16 +19,16 @@ namespace {
 
 using namespace test;
 
-constexpr int kSide = 160;
+constexpr int kMapSide = 160;
 constexpr float kNear = 0.02f, kFar = 0.005f;
 
 // Returns how far a place lies inside the near part, texels.
 using Inside = std::function<double(double, double)>;
 
 DepthMap Sampled(const Inside& inside, float far = kFar) {
-  DepthMap map(kSide, kSide);
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) map.at(x, y) = inside(x, y) > 0 ? kNear : far;
+  DepthMap map(kMapSide, kMapSide);
+  for (int y = 0; y < kMapSide; ++y)
+    for (int x = 0; x < kMapSide; ++x) map.at(x, y) = inside(x, y) > 0 ? kNear : far;
   return map;
 }
 
@@ -44,8 +44,8 @@ double Bilinear(const DepthMap& map, double x, double y) {
 double StairOf(const DepthMap& map, const Inside& inside, double level = 0.5, float far = kFar) {
   double sum = 0, squares = 0;
   int count = 0;
-  for (double y = 20; y < kSide - 20; y += 0.21)
-    for (double x = 20; x < kSide - 20; x += 0.37) {
+  for (double y = 20; y < kMapSide - 20; y += 0.21)
+    for (double x = 20; x < kMapSide - 20; x += 0.37) {
       const double here = inside(x, y);
       if (std::abs(here) > 0.02) continue;
       constexpr double kBeside = 1e-4;
@@ -113,8 +113,8 @@ TEST(ReliefOutlines, ChangeOnlyAdjacentTexelsAndStayBetweenNearAndFar) {
   DepthMap smooth = map;
   SmoothOutlines(smooth, false);
   int changed = 0;
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < kMapSide; ++y)
+    for (int x = 0; x < kMapSide; ++x) {
       EXPECT_GE(smooth.at(x, y), kFar);
       EXPECT_LE(smooth.at(x, y), kNear);
       if (smooth.at(x, y) == map.at(x, y)) continue;
@@ -125,9 +125,9 @@ TEST(ReliefOutlines, ChangeOnlyAdjacentTexelsAndStayBetweenNearAndFar) {
 }
 
 TEST(ReliefOutlines, IgnoreSteepAndUnevenRelief) {
-  DepthMap map(kSide, kSide);
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x)
+  DepthMap map(kMapSide, kMapSide);
+  for (int y = 0; y < kMapSide; ++y)
+    for (int x = 0; x < kMapSide; ++x)
       map.at(x, y) = static_cast<float>(4e-4 * x + 2e-4 * y + 3e-5 * std::sin(0.7 * x * y));
   DepthMap smooth = map;
   SmoothOutlines(smooth, false);
@@ -148,12 +148,12 @@ TEST(ReliefOutlines, LeaveOneTexelAndUnknownReliefUnchanged) {
   EXPECT_EQ(same.relief, spike.relief);
   const Inside inside = Line(0.3);
   DepthMap map = Sampled(inside);
-  for (int y = 0; y < kSide; ++y)
+  for (int y = 0; y < kMapSide; ++y)
     for (int x = 60; x < 90; ++x)
       if (inside(x, y) < 0) map.at(x, y) = std::numeric_limits<float>::quiet_NaN();
   DepthMap smooth = map;
   SmoothOutlines(smooth, false);
-  for (int y = 0; y < kSide; ++y)
+  for (int y = 0; y < kMapSide; ++y)
     for (int x = 62; x < 88; ++x) {
       EXPECT_EQ(std::isnan(smooth.at(x, y)), std::isnan(map.at(x, y)));
       if (!std::isnan(map.at(x, y))) {
@@ -166,8 +166,8 @@ TEST(ReliefOutlines, LeaveOneTexelAndUnknownReliefUnchanged) {
 TEST(ReliefOutlines, AFullTurnHasNoSeam) {
   const auto turned = [](const DepthMap& map, int by) {
     DepthMap out = map;
-    for (int y = 0; y < kSide; ++y)
-      for (int x = 0; x < kSide; ++x) out.at((x + by) % kSide, y) = map.at(x, y);
+    for (int y = 0; y < kMapSide; ++y)
+      for (int x = 0; x < kMapSide; ++x) out.at((x + by) % kMapSide, y) = map.at(x, y);
     return out;
   };
   const DepthMap map =
@@ -237,17 +237,17 @@ DepthMap NoisyStep(float error) {
   std::mt19937 random(4);
   std::normal_distribution<float> noise(0.0f, error);
   const Inside inside = Line(0.3);
-  DepthMap map(kSide, kSide);
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x)
+  DepthMap map(kMapSide, kMapSide);
+  for (int y = 0; y < kMapSide; ++y)
+    for (int x = 0; x < kMapSide; ++x)
       map.at(x, y) = (inside(x, y) > 0 ? 0.0185f : 0.0065f) + noise(random);
   return map;
 }
 
 int ChangedBeyond(const DepthMap& a, const DepthMap& b, const Inside& inside, double texels) {
   int changed = 0;
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x)
+  for (int y = 0; y < kMapSide; ++y)
+    for (int x = 0; x < kMapSide; ++x)
       changed += std::abs(inside(x, y)) > texels && a.at(x, y) != b.at(x, y) ? 1 : 0;
   return changed;
 }
@@ -255,7 +255,7 @@ int ChangedBeyond(const DepthMap& a, const DepthMap& b, const Inside& inside, do
 TEST(ReliefOutlines, OfNoiseAreNoneAndATrueStepKeepsItsOwn) {
   constexpr float kError = 5e-4f;
   const Inside inside = Line(0.3);
-  const DepthMap map = NoisyStep(kError), sigma(kSide, kSide, kError);
+  const DepthMap map = NoisyStep(kError), sigma(kMapSide, kMapSide, kError);
   DepthMap unaware = map, aware = map;
   SmoothOutlines(unaware, false);
   SmoothOutlines(aware, false, sigma);
@@ -271,15 +271,16 @@ TEST(ReliefOutlines, AnErrorThatIsNotKnownChangesNothing) {
   const DepthMap map = NoisyStep(1e-4f);
   DepthMap one = map, other = map;
   SmoothOutlines(one, false);
-  SmoothOutlines(other, false, DepthMap(kSide, kSide, std::numeric_limits<float>::quiet_NaN()));
+  SmoothOutlines(other, false,
+                 DepthMap(kMapSide, kMapSide, std::numeric_limits<float>::quiet_NaN()));
   EXPECT_EQ(one.relief, other.relief);
 }
 
 // Sides of a relief: steps between neighbouring texels that are higher than the standard error.
 int SidesOf(const DepthMap& map, const Inside& inside, double texels, double error) {
   int sides = 0;
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x + 1 < kSide; ++x)
+  for (int y = 0; y < kMapSide; ++y)
+    for (int x = 0; x + 1 < kMapSide; ++x)
       sides += std::abs(inside(x, y)) > texels && std::abs(map.at(x + 1, y) - map.at(x, y)) > error
                    ? 1
                    : 0;
@@ -293,20 +294,20 @@ TEST(QuietRelief, HasNoSidesInNoiseAndKeepsThoseOfAStep) {
   backdrop.radius = 0.05;
   backdrop.projection.type = ProjectionType::kGnomonic;
   backdrop.projection.focal_px = backdrop.radius / kTexel;
-  backdrop.projection.centre_px = {(kSide - 1) / 2.0, (kSide - 1) / 2.0};
+  backdrop.projection.centre_px = {(kMapSide - 1) / 2.0, (kMapSide - 1) / 2.0};
   const Inside inside = Line(0.3);
-  const DepthMap map = NoisyStep(kError), sigma(kSide, kSide, kError);
+  const DepthMap map = NoisyStep(kError), sigma(kMapSide, kMapSide, kError);
   const DepthMap drawn = simulation::WithoutNoise(map, sigma, backdrop);
   // Beside the step the smoothing is as narrow as its distance allows.
   constexpr double kBeside = 8;  // texels
   const int before = SidesOf(map, inside, kBeside, kError),
             after = SidesOf(drawn, inside, kBeside, kError);
-  std::printf("sides in noise: %d of %d pairs, drawn %d\n", before, kSide * kSide, after);
-  EXPECT_GT(before, kSide * kSide / 3);
+  std::printf("sides in noise: %d of %d pairs, drawn %d\n", before, kMapSide * kMapSide, after);
+  EXPECT_GT(before, kMapSide * kMapSide / 3);
   EXPECT_EQ(after, 0);
   int kept = 0, crossed = 0;
-  for (int x = 10; x + 10 < kSide; ++x)
-    for (int y = 10; y + 10 < kSide; ++y)
+  for (int x = 10; x + 10 < kMapSide; ++x)
+    for (int y = 10; y + 10 < kMapSide; ++y)
       if (inside(x, y) <= 0 && inside(x, y + 1) > 0) {
         ++crossed;
         // The median may move the stair of a step by one texel, so it rises within three.

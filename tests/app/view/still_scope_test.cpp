@@ -19,7 +19,7 @@ namespace {
 using app::InstrumentView;
 using app::Picture;
 
-constexpr int kSize = 256;
+constexpr int kStillSize = 256;
 constexpr int kFrames = 24;
 constexpr int kMostChange = 2;                  // levels of 255 between two frames
 constexpr double kTremble = 0.4 * app::kStill;  // m; the cycle is shorter than kStill
@@ -68,7 +68,7 @@ class StillScope : public ViewTest {
       picture.instrument = tool;
       view_->SetTissueShape(0, now);
       picture.disturbances.time = kFrameTime * frame;
-      view_->Render(picture, kSize);
+      view_->Render(picture, kStillSize);
       ColourImage shown = view_->ReadPixels();
       if (frame > 0) most = std::max(most, LargestChange(before, shown));
       before = std::move(shown);
@@ -121,7 +121,7 @@ int LargestChangeOfDemo(double moment, bool is_touched) {
                        picture.instrument = live.Settled(*picture.instrument);
                        picture.samples = 2;
                        picture.disturbances.time = t;
-                       pictures.view().Render(picture, kSize);
+                       pictures.view().Render(picture, kStillSize);
                        ColourImage shown = pictures.view().ReadPixels();
                        if (t > 1.0) {
                          most = std::max(most, LargestChange(before, shown));

@@ -31,7 +31,7 @@
 namespace arthro {
 namespace {
 
-std::string SentenceOf(const std::function<void()>& action) {
+std::string QuietSentenceOf(const std::function<void()>& action) {
   testing::internal::CaptureStderr();
   std::string sentence;
   try {
@@ -134,7 +134,7 @@ TEST(VtkXml, EveryModeOfVtksWriterIsReadWithTheSameNumbers) {
                              mode.compressor, mode.is_raw, mode.is_big_endian, mode.is_64_bit));
     std::ofstream(folder / "a.vtu", std::ios::binary) << Written(mode);
     TetMesh mesh;
-    ASSERT_EQ(SentenceOf([&] { mesh = ReadTetMesh(folder / "a.vtu"); }), "");
+    ASSERT_EQ(QuietSentenceOf([&] { mesh = ReadTetMesh(folder / "a.vtu"); }), "");
     ASSERT_EQ(mesh.rest_positions.size(), std::size_t{kSide * kSide * kSide});
     for (int i = 0; i < kSide * kSide * kSide; ++i)
       ASSERT_EQ(mesh.rest_positions[static_cast<std::size_t>(i)], NodeAt(i)) << i;
@@ -163,7 +163,7 @@ TEST(VtkXml, SurfacesInEveryModeAreReadWithPolygonsAndStrips) {
   for (const Mode& mode : Modes()) {
     WriteAtomically(folder / "a.vtp", Written(vtkNew<vtkXMLPolyDataWriter>(), data, mode));
     SurfaceMesh surface;
-    ASSERT_EQ(SentenceOf([&] { surface = ReadSurface(folder / "a.vtp", 1.0); }), "");
+    ASSERT_EQ(QuietSentenceOf([&] { surface = ReadSurface(folder / "a.vtp", 1.0); }), "");
     EXPECT_EQ(surface.vertices.size(), 12u);
     EXPECT_EQ(surface.triangles.size(), 2u + 6u);
   }
@@ -188,7 +188,7 @@ std::string Tetrahedron(const std::string& from = "", const std::string& to = ""
 std::string FaultOf(const std::string& bytes) {
   test::TempFolder folder;
   std::ofstream(folder / "a.vtu", std::ios::binary) << bytes;  // not flushed to disk, so faster
-  return SentenceOf([&] { ReadTetMesh(folder / "a.vtu"); });
+  return QuietSentenceOf([&] { ReadTetMesh(folder / "a.vtu"); });
 }
 
 TEST(VtkXml, HeadersThatCannotBeAreRefusedByName) {

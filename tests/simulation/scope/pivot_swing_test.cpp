@@ -15,13 +15,14 @@
 #include "simulation/core/random.h"
 #include "simulation/core/units.h"
 #include "simulation/scope/rod_pose.h"
+#include "tests/simulation/scope/test_rigs.h"
 
 namespace arthro::simulation {
 namespace {
 
 constexpr double kQuantum = 0.055e-3;                   // m, quantum of a Touch-class device
 constexpr double kAngleNoise = 0.1 * kRadianPerDegree;  // rad; encoders of 0.35° per count
-const DeviceRig kRig{{0.012, -0.034, 0.11}, {1, 0, 0, 0}, 0.2};
+using test::kStraightRig;
 
 struct Sample {
   glm::dvec3 hip{0.0};
@@ -33,10 +34,10 @@ RodPose PoseAt(double t) {
   return {0.35 * std::sin(2.1 * t), 0.35 * std::sin(1.3 * t), 0.5 * t,
           0.08 + 0.02 * std::sin(0.7 * t)};
 }
-Sample Exact(const RodPose& pose, const DeviceRig& rig = kRig) {
+Sample Exact(const RodPose& pose, const DeviceRig& rig = kStraightRig) {
   return {HipFromRodPose(pose, rig), HandleFromRodPose(pose, rig)};
 }
-Sample Sensed(const RodPose& pose, Random& random, const DeviceRig& rig = kRig) {
+Sample Sensed(const RodPose& pose, Random& random, const DeviceRig& rig = kStraightRig) {
   Sample sample = Exact(pose, rig);
   sample.hip = kQuantum * glm::round(sample.hip / kQuantum);
   const double even = kAngleNoise * std::sqrt(3.0);  // half width of uniform noise with that rms
@@ -55,8 +56,8 @@ PivotOptions Options() {
 TEST(PivotSwing, PressOfASampleIsItsRod) {
   const RodPose pose{0.3, -0.2, 1.1, 0.05};
   const Sample sample = Exact(pose);
-  const PivotPress press = PressOf(sample.hip, sample.handle, kRig.rod_length);
-  EXPECT_LT(glm::length(press.tip - (kRig.pivot + TipInOwnPortal(pose))), 1e-15);
+  const PivotPress press = PressOf(sample.hip, sample.handle, kStraightRig.rod_length);
+  EXPECT_LT(glm::length(press.tip - (kStraightRig.pivot + TipInOwnPortal(pose))), 1e-15);
 }
 
 // Target: within 3 sigma in 99 of 100 trials.
@@ -66,14 +67,14 @@ TEST(PivotSwing, ASwingOfTwentySecondsFindsTheIncisionWithinThreeSigma) {
   constexpr int kTrials = 100;
   for (int trial = 0; trial < kTrials; ++trial) {
     Random random(static_cast<std::uint64_t>(trial));
-    PivotSwing swing(kRig.rod_length);
+    PivotSwing swing(kStraightRig.rod_length);
     for (int i = 0; i < 20000; ++i) {
       const Sample sample = Sensed(PoseAt(7.0 * trial + 1e-3 * i), random);
       swing.Add(sample.hip, sample.handle);
     }
     const PivotCalibration found = CalibratePivot(swing.presses(), Options());
     ASSERT_EQ(found.status, PivotStatus::kOk) << found.reason;
-    const double error = glm::length(*found.pivot - kRig.pivot);
+    const double error = glm::length(*found.pivot - kStraightRig.pivot);
     within += error <= 3 * found.sigma;
     largest = std::max(largest, error);
     sigma = found.sigma;
@@ -86,23 +87,23 @@ TEST(PivotSwing, ASwingOfTwentySecondsFindsTheIncisionWithinThreeSigma) {
 // The trocar slips by 20 mm during one of twenty seconds.
 TEST(PivotSwing, HardCase20LeavesOutATemporarySlip) {
   Random random(1);
-  PivotSwing swing(kRig.rod_length);
-  DeviceRig slipped = kRig;
+  PivotSwing swing(kStraightRig.rod_length);
+  DeviceRig slipped = kStraightRig;
   slipped.pivot += glm::dvec3(0.02, 0, 0);
   for (int i = 0; i < 20000; ++i) {
     const bool slips = i >= 9000 && i < 10000;
-    const Sample sample = Sensed(PoseAt(1e-3 * i), random, slips ? slipped : kRig);
+    const Sample sample = Sensed(PoseAt(1e-3 * i), random, slips ? slipped : kStraightRig);
     swing.Add(sample.hip, sample.handle);
   }
   const PivotCalibration found = CalibratePivot(swing.presses(), Options());
   ASSERT_EQ(found.status, PivotStatus::kOk) << found.reason;
   EXPECT_FALSE(found.left_out.empty());
-  EXPECT_LT(glm::length(*found.pivot - kRig.pivot), 3 * found.sigma);
+  EXPECT_LT(glm::length(*found.pivot - kStraightRig.pivot), 3 * found.sigma);
 }
 
 TEST(PivotSwing, ARestingHandCountsOnce) {
   Random random(1);
-  PivotSwing swing(kRig.rod_length);
+  PivotSwing swing(kStraightRig.rod_length);
   for (int i = 0; i < 5000; ++i) {
     const Sample sample = Sensed(PoseAt(0.4), random);
     EXPECT_EQ(swing.Add(sample.hip, sample.handle), i == 0);
@@ -113,7 +114,7 @@ TEST(PivotSwing, ARestingHandCountsOnce) {
 // For any number of poses.
 TEST(PivotSwing, HardCase16InAndOutAloneIsRefused) {
   Random random(1);
-  PivotSwing swing(kRig.rod_length);
+  PivotSwing swing(kStraightRig.rod_length);
   for (int i = 0; i < 5000; ++i) {
     const Sample sample = Sensed({0.1, 0.2, 0, 0.08 + 0.03 * std::sin(1e-3 * i)}, random);
     swing.Add(sample.hip, sample.handle);
@@ -154,7 +155,7 @@ TEST(PivotSwing, EverySentenceRefersToPoses) {
 }
 
 TEST(PivotSwing, ALongSwingIsThinnedAndStillCoversItsBeginning) {
-  PivotSwing swing(kRig.rod_length);
+  PivotSwing swing(kStraightRig.rod_length);
   const Sample first = Exact(PoseAt(0));
   for (int i = 0; i < 200000; ++i) {
     const Sample sample = Exact(PoseAt(1e-3 * i));

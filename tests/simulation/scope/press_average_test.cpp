@@ -11,20 +11,21 @@
 
 #include "simulation/core/random.h"
 #include "simulation/scope/rod_pose.h"
+#include "tests/simulation/scope/test_rigs.h"
 
 namespace arthro::simulation {
 namespace {
 
-const DeviceRig kSetRig{{0.012, -0.034, 0.11}, {1, 0, 0, 0}, 0.2};
+using test::kStraightRig;
 const RodPose kPose{0.3, -0.2, 1.1, 0.05};
 
 // Makes a press of a hand that is displaced by `moved` at each time.
 PressAverage Pressed(const std::function<glm::dvec3(double)>& moved, double rate = 1000) {
-  PressAverage press(kSetRig.rod_length);
+  PressAverage press(kStraightRig.rod_length);
   for (int i = 0; i < 1000; ++i) {
     const double t = 7.0 + i / rate;
-    if (press.Add(t, HipFromRodPose(kPose, kSetRig) + moved(t - 7.0),
-                  HandleFromRodPose(kPose, kSetRig)))
+    if (press.Add(t, HipFromRodPose(kPose, kStraightRig) + moved(t - 7.0),
+                  HandleFromRodPose(kPose, kStraightRig)))
       break;
   }
   return press;
@@ -35,8 +36,8 @@ TEST(PressAverage, ARestingHandGivesItsRodAtAnyRate) {
     const PressAverage press = Pressed([](double) { return glm::dvec3(0); }, rate);
     ASSERT_TRUE(press.press()) << press.refusal();
     EXPECT_EQ(press.done(), 1.0);
-    EXPECT_LT(glm::distance(press.press()->hip, HipFromRodPose(kPose, kSetRig)), 1e-15);
-    EXPECT_LT(glm::distance(press.press()->tip, kSetRig.pivot + TipInOwnPortal(kPose)), 1e-14);
+    EXPECT_LT(glm::distance(press.press()->hip, HipFromRodPose(kPose, kStraightRig)), 1e-15);
+    EXPECT_LT(glm::distance(press.press()->tip, kStraightRig.pivot + TipInOwnPortal(kPose)), 1e-14);
   }
 }
 
@@ -51,7 +52,7 @@ TEST(PressAverage, NoiseIsAveragedAway) {
   };
   const PressAverage press = Pressed(noise);
   ASSERT_TRUE(press.press()) << press.refusal();
-  EXPECT_LT(glm::distance(press.press()->hip, HipFromRodPose(kPose, kSetRig)), 0.025e-3 * 1.8);
+  EXPECT_LT(glm::distance(press.press()->hip, HipFromRodPose(kPose, kStraightRig)), 0.025e-3 * 1.8);
 }
 
 // Uniform motion over a distance has a standard deviation of 1/√12 of it: 0.1 mm for 0.35 mm.
@@ -68,7 +69,7 @@ TEST(PressAverage, RefusesAHandThatMovesByMoreThanATenthOfAMillimetre) {
 }
 
 TEST(PressAverage, RefusesASilentOrRarelyReportingDevice) {
-  PressAverage press(kSetRig.rod_length);
+  PressAverage press(kStraightRig.rod_length);
   EXPECT_FALSE(press.Add(0, {0, 0, 0}, {1, 0, 0, 0}));
   EXPECT_TRUE(press.Miss());
   EXPECT_FALSE(press.press());

@@ -8,16 +8,12 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/simulation/scope/test_rigs.h"
+
 namespace arthro::simulation {
 namespace {
 
-DeviceRig TiltedRig() {
-  DeviceRig rig;
-  rig.pivot = {0.01, -0.02, 0.15};
-  rig.portal_from_device = glm::normalize(glm::dquat(0.9, 0.1, -0.3, 0.2));
-  rig.rod_length = 0.25;
-  return rig;
-}
+using test::TiltedRig;
 
 TEST(RodPose, RoundTripsThroughTheHand) {
   for (const DeviceRig& rig : {DeviceRig{}, TiltedRig()})

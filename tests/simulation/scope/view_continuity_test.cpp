@@ -23,6 +23,7 @@
 #include "simulation/core/units.h"
 #include "simulation/scope/arthroscope.h"
 #include "simulation/scope/camera_head.h"
+#include "tests/simulation/scope/test_rigs.h"
 
 namespace arthro::simulation {
 namespace {
@@ -30,17 +31,11 @@ namespace {
 constexpr double kStep = RadiansFromDegrees(0.1);
 constexpr double kRounding = 1e-9;  // rad, error of thousands of products of rotations
 
-DeviceRig RolledRig() {
-  DeviceRig rig;
-  rig.pivot = {0.01, -0.02, 0.15};
-  rig.portal_from_device = glm::normalize(glm::dquat(0.9, 0.1, -0.3, 0.2));
-  rig.rod_length = 0.25;
-  return rig;
-}
+using test::TiltedRig;
 
 // State of a hand on its device.
 struct Hand {
-  DeviceRig rig = RolledRig();
+  DeviceRig rig = TiltedRig();
   glm::dvec3 hip{0.0};
   glm::dquat handle{1, 0, 0, 0};
   RodPose pose;
