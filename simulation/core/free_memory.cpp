@@ -1,17 +1,45 @@
 #include "simulation/core/free_memory.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <new>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
 namespace arthro {
+namespace {
+
+constexpr std::size_t kBlock = std::size_t{64} << 10, kPage = 4096;  // bytes
+
+}  // namespace
 
 void ReturnFreeMemory() noexcept {
 #ifdef __GLIBC__
   ::malloc_trim(0);
 #endif
+}
+
+void TakeMemoryAhead(std::size_t bytes) noexcept {
+#ifdef __GLIBC__
+  constexpr int kKept = 64 << 20;
+  ::mallopt(M_TRIM_THRESHOLD, kKept);
+  ::mallopt(M_MMAP_THRESHOLD, kKept / 2);  // the largest it takes: blocks above are never kept
+#endif
+  // Each block holds the address of the one before.
+  void* last = nullptr;
+  for (std::size_t taken = 0; taken < std::min(bytes, kMostMemoryAhead); taken += kBlock) {
+    auto* block = static_cast<char*>(::operator new(kBlock, std::nothrow));
+    if (block == nullptr) break;
+    for (std::size_t i = 0; i < kBlock; i += kPage) static_cast<volatile char*>(block)[i] = 0;
+    last = new (block) void*(last);
+  }
+  while (last != nullptr) {
+    void* before = *static_cast<void**>(last);
+    ::operator delete(last);
+    last = before;
+  }
 }
 
 }  // namespace arthro

@@ -33,4 +33,10 @@ double PeakMemoryMb() {
   return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
 }
 
+long ThreadPageFaults() {
+  rusage usage{};
+  ::getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_minflt + usage.ru_majflt;
+}
+
 }  // namespace arthro

@@ -27,9 +27,22 @@ TissueLoop::TissueLoop(TissueWorld world, TissuePace pace, double period)
   for (const ImplicitBody& body : world_.implicit())
     solids_.push_back(std::make_unique<Solid>(body));
   if (pace == TissuePace::kThread && !world_.IsEmpty()) thread_ = std::make_unique<Thread>();
+  TakeMemory();
 }
 
 TissueLoop::~TissueLoop() = default;
+
+void TissueLoop::TakeMemory() noexcept {
+  if (thread_ == nullptr) return;
+  thread_->is_busy.store(true, std::memory_order_release);
+  thread_->worker.Start(
+      [](void* loop) noexcept {
+        auto* own = static_cast<TissueLoop*>(loop);
+        own->world_.TakeMemory();
+        own->thread_->is_busy.store(false, std::memory_order_release);
+      },
+      this);
+}
 
 void TissueLoop::Step(const Request& request) noexcept {
   world_.Step(request.tool, request.dt);
@@ -61,6 +74,7 @@ void TissueLoop::Reset() {
   PublishSolids();
   world_.Show(shown_);
   pictures_.Write(shown_);
+  TakeMemory();
 }
 
 void TissueLoop::Tick(const Instrumentation& tool, double dt) noexcept {

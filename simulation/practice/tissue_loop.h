@@ -50,6 +50,7 @@ class TissueLoop {
     double dt = 0;
   };
   void Step(const Request& request) noexcept;
+  void TakeMemory() noexcept;  // on the thread; steps are left out meanwhile
   void Publish() noexcept;
 
   TissueWorld world_;

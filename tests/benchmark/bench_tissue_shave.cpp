@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "simulation/core/free_memory.h"
 #include "simulation/core/process_cost.h"
 #include "tests/benchmark/bench_report.h"
 #include "tests/simulation/tissue/body/meniscus_body.h"
@@ -31,6 +32,7 @@ double At(std::vector<double> values, double share) {
 void Run(const test::BenchReport& report) {
   const BodySpec spec = test::MeniscusBody();
   DeformableBody body(spec, {});
+  TakeMemoryAhead(kMostMemoryAhead);  // done by the thread of a practice too
   const test::Plateau plateau(spec.portal_from_body);
   WorldTool shaver;
   shaver.shape = ShapeOf(ToolKind::kShaver);

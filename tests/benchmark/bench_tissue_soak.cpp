@@ -65,6 +65,7 @@ struct Soak {
   std::vector<Minute> minutes;
   std::vector<double> all_ms, uncut_ms, reset_ms;  // processor time of the stepping thread
   std::vector<double> iterations;                  // a step that was not asleep
+  std::vector<double> pages;                       // new from the system, per step
   std::vector<double> servo_share;  // %, error of the servo's force at the step's own tip
   int steps = 0, awake = 0, touched = 0, cuts = 0, debris = 0, sessions = 0, inverted = 0;
   int not_finite = 0, faults = 0, unsaid_faults = 0, fallbacks = 0, clamps = 0, unconverged = 0;
@@ -89,6 +90,7 @@ double ResidentMb() {
 Soak Run(const Plan& plan) {
   const BodySpec spec = test::MeniscusBody();
   TissueWorld world({spec}, {}, nullptr, plan.has_thread);
+  world.TakeMemory();
   test::RandomHand hand(plan.seed, spec.portal_from_body);
   WorldPicture picture;
   Soak soak;
@@ -96,7 +98,7 @@ Soak Run(const Plan& plan) {
   // Room at once: what is noted down is not to look like a leak.
   const auto steps = static_cast<std::size_t>(plan.minutes * plan.minute);
   for (std::vector<double>* of_steps :
-       {&soak.all_ms, &soak.uncut_ms, &soak.iterations, &soak.servo_share})
+       {&soak.all_ms, &soak.uncut_ms, &soak.iterations, &soak.pages, &soak.servo_share})
     of_steps->reserve(steps);
   soak.reset_ms.reserve(steps / kCutsToReset + static_cast<std::size_t>(plan.minutes));
   const auto reset = [&] {
@@ -107,15 +109,18 @@ Soak Run(const Plan& plan) {
     const double begin = ThreadCpuMs();
     world.Reset();
     soak.reset_ms.push_back(ThreadCpuMs() - begin);
+    world.TakeMemory();
     world.Show(picture);
   };
   for (int step = 1; step <= plan.minutes * plan.minute; ++step) {
     // A display that misses frames now and then: up to three at once.
     const double dt = step % 97 == 0 ? 3 * kFrame : kFrame;
     const Instrumentation now = hand.Next(dt);
+    const long pages = ThreadPageFaults();
     const double begin = ThreadCpuMs();
     world.Step(now, dt);
     const double took = ThreadCpuMs() - begin;
+    soak.pages.push_back(static_cast<double>(ThreadPageFaults() - pages));
     world.Show(picture);
 
     const BodyPicture& body = picture.bodies[0];
@@ -191,6 +196,7 @@ void Print(const Soak& soak) {
              soak.awake, soak.touched, soak.jumps, soak.bad_poses);
   fmt::print("ms a step: {}\nms a step without a cut: {}\nms a reset: {}\n", Quantiles(soak.all_ms),
              Quantiles(soak.uncut_ms), Quantiles(soak.reset_ms));
+  fmt::print("pages a step got from the system: {}\n", Quantiles(soak.pages));
   fmt::print("iterations a step that is awake: {}; oldest factor {} steps\n",
              Quantiles(soak.iterations), soak.deepest_factor);
   fmt::print(

@@ -15,6 +15,9 @@ namespace {
 // number gives the same bits in fast and slow sessions.
 constexpr int kSideWorkSteps = 2;
 
+// Memory that cuts take. A meniscus of 504 elements took 43 MB more while it was cut.
+constexpr std::size_t kCutMemory = std::size_t{16} << 20, kCutMemoryOfElement = 80 << 10;  // bytes
+
 // Copies the changes of one tissue since `shown` was last filled.
 template <class Body>
 void TakeShape(const Body& body, BodyPicture& shown) {
@@ -216,6 +219,15 @@ void TissueWorld::Reset() {
   for (Impl::HeldLayer& held : impl_->layers) held.skin.Release();
   for (ImplicitBody& body : impl_->implicit) body.Reset();
   ReturnFreeMemory();  // all that the cuts took
+}
+
+void TissueWorld::TakeMemory() noexcept {
+  std::size_t bytes = 0;
+  for (const Impl::Held& held : impl_->bodies)
+    if (held.body.spec().is_cuttable)
+      bytes += kCutMemory +
+               kCutMemoryOfElement * static_cast<std::size_t>(held.body.spec().mesh.ElementCount());
+  if (bytes > 0) TakeMemoryAhead(bytes);
 }
 
 }  // namespace arthro::simulation

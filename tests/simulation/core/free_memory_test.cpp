@@ -3,10 +3,13 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "simulation/core/process_cost.h"
 
 namespace arthro {
 namespace {
@@ -36,6 +39,48 @@ TEST(ReturnFreeMemory, GivesBackWhatLiesBetweenBlocksInUse) {
   ReturnFreeMemory();
   EXPECT_LT(ResidentMb() - before, 10);
   EXPECT_EQ(blocks[99][kBlock - 1], 1);
+}
+
+// Blocks of many sizes, some freed and taken again, get few new pages.
+TEST(TakeMemoryAhead, LaterBlocksGetFewPagesFromTheSystem) {
+#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the allocator is not glibc's";
+#endif
+  constexpr std::size_t kPage = 4096;
+  const auto use = [](std::size_t bytes) {
+    const long before = ThreadPageFaults();
+    std::vector<std::unique_ptr<char[]>> blocks;
+    for (std::size_t taken = 0, size = kPage; taken < bytes; taken += size) {
+      size = size >= 4'000'000 ? kPage : 3 * size;
+      blocks.push_back(std::make_unique<char[]>(size));
+      std::memset(blocks.back().get(), 1, size);
+      if (blocks.size() % 3 == 0) blocks.front().reset();
+    }
+    return ThreadPageFaults() - before;
+  };
+  ReturnFreeMemory();
+  constexpr std::size_t kUsed = 30'000'000;
+  EXPECT_GT(use(kUsed), 4'000) << "of 7,324 pages";
+  ReturnFreeMemory();
+  TakeMemoryAhead(40'000'000);
+  for (int round = 0; round < 3; ++round) EXPECT_LT(use(kUsed), 200) << round;
+  ReturnFreeMemory();
+}
+
+// On a thread of its own, whose blocks have a place of their own.
+TEST(TakeMemoryAhead, ServesTheThreadThatCallsIt) {
+#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the allocator is not glibc's";
+#endif
+  long faults = 0;
+  std::thread([&] {
+    TakeMemoryAhead(std::size_t{1} << 40);  // the most it may take
+    const long before = ThreadPageFaults();
+    std::vector<char> block(20'000'000, 1);
+    faults = ThreadPageFaults() - before;
+    EXPECT_EQ(block.back(), 1);
+  }).join();
+  EXPECT_LT(faults, 200);
 }
 
 }  // namespace
