@@ -128,7 +128,7 @@ Soak Run(const Plan& plan) {
     const ToolCoupling& coupling = world.coupling();
     ++soak.steps;
     soak.all_ms.push_back(took);
-    if (!report.was_cut) soak.uncut_ms.push_back(took);
+    if (!report.was_cut && !report.took_shape) soak.uncut_ms.push_back(took);
     if (!report.is_asleep) {
       ++soak.awake;
       soak.iterations.push_back(report.step.iterations);

@@ -137,6 +137,8 @@ void DeformableBody::Impl::TakeTools(std::span<const WorldTool> tools) noexcept 
       tool.grip = ToolGrip{};
       tool.felt = TissueContact{};
       tool.trigger = CutTrigger{};
+      tool.due = ToolCut::kNone;
+      tool.due_time = 0;
     }
     tool.kind = tools[i].shape.kind;
     tool.tip = body_from_tool.translation;
@@ -155,10 +157,10 @@ bool DeformableBody::Impl::IsTouchedSoon() const noexcept {
 
 void DeformableBody::Impl::LeaveUnsolved(std::span<const WorldTool> tools, double dt,
                                          std::span<ToolCoupling> coupling) noexcept {
-  unsolved = dt;
+  unsolved += dt;
   for (std::size_t i = 0; i < tool_count; ++i) {
     PlacedTool& tool = placed[i];
-    tool.tip -= tool.motion;  // the next step's motion is that of both
+    tool.tip -= tool.motion;  // the next step's motion is that of all
     const glm::dvec3& tip = tools[i].now.portal_from_tool.translation;
     if (i < coupling.size() && tool.count > 0 && tool.felt.tissue >= 0)
       AddMoved(tool.felt, tip - tool.felt_at, coupling[i]);
@@ -224,13 +226,15 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
   own.is_asleep = false;
   if (own.spec.is_cuttable) {
     try {
-      report.was_cut = own.CutWithTools(tools, dt);
+      report.took_shape = !own.edited.empty();
+      report.was_cut = own.CutWithTools(tools, dt, own.unsolved == 0.0);
+      if (report.took_shape) own.FollowField(std::exchange(own.edited, kEmptyBox));
     } catch (const std::exception&) {  // no memory: restored soon, and reported
       return lost();
     }
   }
 
-  if (report.was_cut && own.unsolved == 0.0) {
+  if (report.was_cut || report.took_shape) {
     own.LeaveUnsolved(tools, dt, coupling);
     for (const ToolCoupling& of_tool : coupling)
       report.contacts += ContactWith(of_tool, own.spec.tissue) != nullptr;

@@ -47,8 +47,9 @@ struct WorldTool {
 struct BodyReport {
   StepReport step;
   bool is_asleep = false;
-  bool was_cut = false;    // in this step
-  bool was_reset = false;  // the solver failed and the last good state was restored; or lost
+  bool was_cut = false;     // in this step
+  bool took_shape = false;  // this step made the elements and the skin that the last one cut
+  bool was_reset = false;   // the solver failed and the last good state was restored; or lost
   int contacts = 0;
   double max_speed = 0;  // m/s
   // Tools of this step that slipped off, so that the servo feels nothing of it; and over the others
@@ -88,8 +89,9 @@ class DeformableBody {
   DeformableBody& operator=(DeformableBody&&) noexcept;
 
   // `coupling` has one entry per tool, to which contacts of this body are added. `obstacle`
-  // supports the body, or is null. A step that cuts makes the new shape only; the next one solves
-  // for the time of both, so that no step takes the time of a cut and of a new factor.
+  // supports the body, or is null. A step that cuts does no more than that, the next one makes the
+  // new shape, and the third solves for the time of all, so that none takes the time of two. A cut
+  // that is due meanwhile follows the third.
   BodyReport Step(std::span<const WorldTool> tools, const RigidObstacle* obstacle, double dt,
                   std::span<ToolCoupling> coupling) noexcept;
 

@@ -207,14 +207,20 @@ bool DeformableBody::Impl::AwaitsPreparation(const PlacedTool& tool) const noexc
   return cut == nullptr && !could_not_prepare && finish_side_work && IsAboutToCut(tool);
 }
 
-bool DeformableBody::Impl::CutWithTools(std::span<const WorldTool> tools, double dt) {
+bool DeformableBody::Impl::CutWithTools(std::span<const WorldTool> tools, double dt, bool may_cut) {
   bool was_cut = false;
   for (std::size_t i = 0; i < tool_count; ++i) {
     PlacedTool& tool = placed[i];
     if (tool.count == 0 || AwaitsPreparation(tool)) continue;
     double time = 0;
     const ToolCut cut_now = TriggerCut(tools[i].shape.kind, tools[i].now, dt, tool.trigger, time);
-    if (cut_now != ToolCut::kNone) was_cut |= CutWith(tool.bite, cut_now == ToolCut::kShave, time);
+    if (cut_now != ToolCut::kNone) {
+      tool.due = cut_now;
+      tool.due_time += time;
+    }
+    if (!may_cut || tool.due == ToolCut::kNone) continue;
+    const bool is_shaver = std::exchange(tool.due, ToolCut::kNone) == ToolCut::kShave;
+    was_cut |= CutWith(tool.bite, is_shaver, std::exchange(tool.due_time, 0.0));
   }
   return was_cut;
 }
@@ -302,7 +308,7 @@ bool DeformableBody::Impl::CutWith(const Capsule& tool, bool is_shaver, double d
   taken.debris_volume += gone.edit.removed;
   ++taken.cuts;
   CountRegions();
-  FollowField(edit.changed);
+  edited = Union(edited, edit.changed);
   return true;
 }
 

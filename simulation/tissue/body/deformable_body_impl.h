@@ -64,6 +64,8 @@ struct PlacedTool {
   glm::dvec3 felt_at{0.0};
   Capsule bite;  // volume removed when it closes or runs
   CutTrigger trigger;
+  ToolCut due = ToolCut::kNone;  // cut that waits for the step that may make it
+  double due_time = 0;           // s, of a shaver's
   std::span<const Capsule> Capsules() const {
     return {capsules.data(), static_cast<std::size_t>(count)};
   }
@@ -88,14 +90,16 @@ struct DeformableBody::Impl {
   void WantPreparation() noexcept;
   // Returns whether the tool cuts some steps later, since the body is being prepared elsewhere.
   bool AwaitsPreparation(const PlacedTool& tool) const noexcept;
-  // Applies bites and shavings of this step; returns true if something was removed.
-  bool CutWithTools(std::span<const WorldTool> tools, double dt);
+  // Takes the bites and shavings of this step, and applies them if it may; returns true if
+  // something was removed.
+  bool CutWithTools(std::span<const WorldTool> tools, double dt, bool may_cut);
   bool CutWith(const Capsule& tool, bool is_shaver, double dt);
   // Reads only what no step changes before the first cut.
   std::unique_ptr<CutState> PreparedCut() const;
   void MakeAuthorsCuts();
   void CountRegions();
-  // Updates elements, state, solver and skin after the field changed within `box`.
+  // Updates elements, state, solver and skin after the field changed within `box`. They still lack
+  // what changed in `edited`.
   void FollowField(const Box3& box);
   // Resizes everything that has one entry per node of the shape or per vertex of the skin.
   void ResizeBuffers();
@@ -124,8 +128,9 @@ struct DeformableBody::Impl {
   std::array<PlacedTool, 2> placed;
   std::size_t tool_count = 0;
   std::uint64_t shape_version = 0;
-  bool is_asleep = true;  // at rest until touched
-  double unsolved = 0;    // s, time of a step that cut, which the next one solves with its own
+  bool is_asleep = true;    // at rest until touched
+  Box3 edited = kEmptyBox;  // box of the field that the shape does not follow yet
+  double unsolved = 0;      // s, time of steps that cut, which the next one solves with its own
   int quiet = 0, since_good = 0, since_refresh = 0;
   bool wants_plan = false, wants_refresh = false, wants_preparation = false;
   std::function<void()> finish_side_work;  // waits for work that runs elsewhere

@@ -78,10 +78,10 @@ struct TissueWorld::Impl {
       if (held.body.WantsSideWork()) return BeginSideWork(held.body);
   }
 
-  // Begins what the next step needs of a body that was cut in this one.
+  // Begins what the next step needs of a body that got the shape of a cut in this one.
   void WorkAfterCut() noexcept {
     for (Held& held : bodies)
-      if (worked_on == nullptr && held.report.was_cut && held.body.WantsSideWork())
+      if (worked_on == nullptr && held.report.took_shape && held.body.WantsSideWork())
         BeginSideWork(held.body);
   }
 

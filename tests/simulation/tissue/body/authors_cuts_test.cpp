@@ -109,7 +109,7 @@ TEST(AuthorsCuts, BiteCountsPerRegionAndResetKeepsTheTear) {
         spec.portal_from_body *
         Rigid3{glm::angleAxis(-0.5 * std::numbers::pi, glm::dvec3(0, 1, 0)), at};
     ToolCoupling coupling;
-    for (const double opening : {1.0, 0.0}) {
+    for (const double opening : {1.0, 0.0, 0.0, 0.0}) {
       tool.now.opening = opening;
       body.Step({&tool, 1}, nullptr, test::kFrame, {&coupling, 1});
     }

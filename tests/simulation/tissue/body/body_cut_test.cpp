@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -57,6 +58,7 @@ TEST(BodyCut, BiteRemovesTissueBetweenTheJawsAndTheBodyContinues) {
   EXPECT_EQ(report.cuts, 1);
   EXPECT_GT(report.removed, 1e-9) << "m³";
   EXPECT_LT(report.removed, 60e-9);
+  EXPECT_TRUE(step(PunchAt(spec, 2e-3, 0.0)).took_shape);
   EXPECT_NE(body.skin(), whole);
   EXPECT_TRUE(std::ranges::count(body.skin()->is_fresh, 1) > 10) << "the cut face is fresh";
   step(PunchAt(spec, 2e-3, 0.0));
@@ -137,9 +139,10 @@ TEST(BodyCut, BiteUnderAPressedToolAddsNoForce) {
   EXPECT_LT(most, 1.1 * pressed);
 }
 
-// A step that cuts makes the new shape; the hand feels what it felt, at its new place, and the next
-// step solves for the time of both. Before, one step made the shape, a new factor and the solution.
-TEST(BodyCut, StepThatCutsLeavesTheSolutionToTheNext) {
+// A step that cuts makes no shape and no solution; the hand feels what it felt, at its new place.
+// The next step makes the shape, and the third solves for the time of all. Before, one step did all
+// of it, later two.
+TEST(BodyCut, StepThatCutsLeavesShapeAndSolutionToTheNextTwo) {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
   DeformableBody body(spec, {});
@@ -163,8 +166,17 @@ TEST(BodyCut, StepThatCutsLeavesTheSolutionToTheNext) {
   const glm::dvec3 expected = ForceOf(before, coupling.tip).force;
   EXPECT_GT(glm::length(expected), 0.05) << "N";
   EXPECT_LT(glm::length(ForceOf(coupling, coupling.tip).force - expected), 1e-9);
-  const BodyReport solved = step(1.1e-3, 0.0);
-  EXPECT_FALSE(solved.was_cut);
+  const auto skin = body.skin();
+  const BodyReport shaped = step(1.2e-3, 0.0);
+  EXPECT_TRUE(shaped.took_shape);
+  EXPECT_FALSE(shaped.was_cut);
+  EXPECT_EQ(shaped.step.work, 0);
+  EXPECT_NE(body.skin(), skin);
+  const glm::dvec3 later = ForceOf(before, coupling.tip).force;
+  EXPECT_GT(glm::distance(later, expected), 0.005) << "N";
+  EXPECT_LT(glm::length(ForceOf(coupling, coupling.tip).force - later), 1e-9);
+  const BodyReport solved = step(1.2e-3, 0.0);
+  EXPECT_FALSE(solved.was_cut || solved.took_shape);
   EXPECT_GT(solved.step.newton, 0);
   EXPECT_TRUE(IsSound(body));
 }
@@ -216,13 +228,30 @@ TEST(BodyCut, PlanMadeBesideTheStepsChangesNoBit) {
   beside.TakeSideWork();
   step(alone, 1.0);
   for (const double opening : {1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0}) {
-    const bool was_cut = step(beside, opening).was_cut;
-    EXPECT_EQ(step(alone, opening).was_cut, was_cut);
-    EXPECT_EQ(beside.WantsSideWork(), was_cut);
-    if (was_cut) beside.BeginSideWork();
+    const bool took_shape = step(beside, opening).took_shape;
+    EXPECT_EQ(step(alone, opening).took_shape, took_shape);
+    EXPECT_EQ(beside.WantsSideWork(), took_shape);
+    if (took_shape) beside.BeginSideWork();
     EXPECT_TRUE(beside.state().x == alone.state().x) << "opening " << opening;
   }
   EXPECT_EQ(beside.cut_report().cuts, 2);
+}
+
+// Jaws that close again while the shape of a bite is still to be made bite after its solution.
+TEST(BodyCut, BiteThatIsDueTooSoonFollowsTheSolution) {
+  BodySpec spec = test::SlabBody();
+  spec.is_cuttable = true;
+  DeformableBody body(spec, {});
+  std::string order;
+  for (const double opening : {1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0}) {
+    const WorldTool tool = PunchAt(spec, order.size() < 3 ? 2e-3 : 4e-3, opening);
+    ToolCoupling coupling;
+    const BodyReport report = body.Step({&tool, 1}, nullptr, test::kFrame, {&coupling, 1});
+    order += report.was_cut ? 'c' : report.took_shape ? 's' : '.';
+  }
+  EXPECT_EQ(order, ".cs.cs..");
+  EXPECT_EQ(body.cut_report().cuts, 2);
+  EXPECT_TRUE(IsSound(body));
 }
 
 // Nothing waits for ever where there was no memory to prepare: the cut tries it itself.
