@@ -10,9 +10,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <malloc.h>
 #include <string>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -61,9 +63,17 @@ struct Minute {
   double heap = 0, resident = 0;  // MB, with the tissue whole again
 };
 
+struct SlowStep {
+  int step = 0;
+  double ms = 0;
+  std::string did;
+};
+
 struct Soak {
+  std::vector<SlowStep> slowest;  // longest first
   std::vector<Minute> minutes;
   std::vector<double> all_ms, uncut_ms, reset_ms;  // processor time of the stepping thread
+  std::vector<double> work;                        // in iterations, of a step that solved
   std::vector<double> iterations;                  // a step that was not asleep
   std::vector<double> pages;                       // new from the system, per step
   std::vector<double> servo_share;  // %, error of the servo's force at the step's own tip
@@ -87,6 +97,14 @@ double ResidentMb() {
   return 1e-6 * resident * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
+void NoteSlow(SlowStep step, std::vector<SlowStep>& slowest) {
+  constexpr std::size_t kNoted = 12;
+  if (slowest.size() == kNoted && step.ms <= slowest.back().ms) return;
+  const auto place = std::ranges::upper_bound(slowest, step.ms, std::greater<>(), &SlowStep::ms);
+  slowest.insert(place, std::move(step));
+  if (slowest.size() > kNoted) slowest.pop_back();
+}
+
 Soak Run(const Plan& plan) {
   const BodySpec spec = test::MeniscusBody();
   TissueWorld world({spec}, {}, nullptr, plan.has_thread);
@@ -98,7 +116,7 @@ Soak Run(const Plan& plan) {
   // Room at once: what is noted down is not to look like a leak.
   const auto steps = static_cast<std::size_t>(plan.minutes * plan.minute);
   for (std::vector<double>* of_steps :
-       {&soak.all_ms, &soak.uncut_ms, &soak.iterations, &soak.pages, &soak.servo_share})
+       {&soak.all_ms, &soak.uncut_ms, &soak.work, &soak.iterations, &soak.pages, &soak.servo_share})
     of_steps->reserve(steps);
   soak.reset_ms.reserve(steps / kCutsToReset + static_cast<std::size_t>(plan.minutes));
   const auto reset = [&] {
@@ -129,6 +147,13 @@ Soak Run(const Plan& plan) {
     ++soak.steps;
     soak.all_ms.push_back(took);
     if (!report.was_cut && !report.took_shape) soak.uncut_ms.push_back(took);
+    const bool solved = !report.is_asleep && !report.was_cut && !report.took_shape;
+    if (solved) soak.work.push_back(report.step.work);
+    NoteSlow({step, took,
+              report.was_cut      ? "cut"
+              : report.took_shape ? "made a shape"
+                                  : fmt::format("solved, work {}", report.step.work)},
+             soak.slowest);
     if (!report.is_asleep) {
       ++soak.awake;
       soak.iterations.push_back(report.step.iterations);
@@ -196,6 +221,9 @@ void Print(const Soak& soak) {
              soak.awake, soak.touched, soak.jumps, soak.bad_poses);
   fmt::print("ms a step: {}\nms a step without a cut: {}\nms a reset: {}\n", Quantiles(soak.all_ms),
              Quantiles(soak.uncut_ms), Quantiles(soak.reset_ms));
+  for (const SlowStep& slow : soak.slowest)
+    fmt::print("  {:.1f} ms: step {} {}\n", slow.ms, slow.step, slow.did);
+  fmt::print("work of a step that solved: {}\n", Quantiles(soak.work));
   fmt::print("pages a step got from the system: {}\n", Quantiles(soak.pages));
   fmt::print("iterations a step that is awake: {}; oldest factor {} steps\n",
              Quantiles(soak.iterations), soak.deepest_factor);

@@ -177,6 +177,7 @@ StepReport ImplicitSolver::Step(BodyState& state, std::span<const glm::dvec3> lo
   report = body.Newton(state.x, problem,
                        {body.options.tolerance, body.options.max_newton,
                         body.options.max_iterations, body.options.max_work});
+  body.last_work = report.work;
   ++body.age;
   ++body.job_age;
   if (!report.is_finite || !AllFinite(state.x)) {

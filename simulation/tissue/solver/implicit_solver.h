@@ -113,8 +113,9 @@ class ImplicitSolver {
   // the hand, A that step's system. N/m; 0: no such tool, or no step yet.
   // The rotation of a round tool's normals is included, so K is exact and need not be positive
   // definite. Solves for A⁻¹ B n by the same conjugate gradients, which start at the last answer
-  // for this tool; the error of the stiffness is the square of `tolerance`, in parts of h.
-  // Allocates nothing.
+  // for this tool; the error of the stiffness is the square of `tolerance`, in parts of h. Ends at
+  // `max_work`, the step's own work included, but makes 12 iterations at least; the stiffness is
+  // then too high. Allocates nothing.
   double ToolStiffness(int owner, const glm::dvec3& direction, double tolerance) noexcept;
 
   // Replaces the model after a cut or with new shares: node i of the new model was node parent[i]

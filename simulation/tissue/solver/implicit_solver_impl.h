@@ -101,6 +101,7 @@ struct ImplicitSolver::Impl {
   std::vector<ContactPoint> contacts;  // copied: springs refer to them after the step
   std::vector<double> added;           // M/dt²
   double last_dt = 0;
+  int last_work = 0;               // work of the step and of the tools since
   std::vector<glm::dvec3> goal_x;  // y
   std::vector<glm::dvec3> begin_x, good_x, good_v;
   std::vector<glm::dvec3> gradient, direction, right, lead, trial, reaction, unit_load;

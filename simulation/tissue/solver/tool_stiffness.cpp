@@ -9,7 +9,8 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr int kMostSteps = 200;
+// Iterations: however many a step has left over, and at least the last number.
+constexpr int kMostForTool = 200, kFewestForTool = 12;
 
 }  // namespace
 
@@ -67,8 +68,10 @@ double ImplicitSolver::ToolStiffness(int owner, const glm::dvec3& direction,
   system.springs = body.tool_springs;
   system.holds = body.tool_holds;
   auto& left = body.tool_left[static_cast<std::size_t>(owner) % body.tool_left.size()];
-  SolveByGradients(system, *body.factor, body.tool_right, {tolerance, 0, kMostSteps, true},
-                   body.tool_vectors, left);
+  const int most = std::clamp(body.options.max_work - body.last_work, kFewestForTool, kMostForTool);
+  const CgResult result = SolveByGradients(system, *body.factor, body.tool_right,
+                                           {tolerance, 0, most, true}, body.tool_vectors, left);
+  body.last_work += result.iterations;
   // rᵀ A⁻¹ r = rᵀ d + dᵀ (r − A d), up to the square of the error of d.
   return hold - hold * hold * glm::dot(direction, give * direction) - Dot(body.tool_right, left) -
          Dot(left, body.tool_vectors.r);
