@@ -38,13 +38,46 @@ const float kBundleHeight = 0.145, kBundleTint = 0.16;  // in its widths; share 
 const float kEdge = 0.30;                // share of the width that the free edge is pale
 const float kRedFrom = 0.38, kRedTo = 0.85;
 const float kRedUneven = 0.16;
-const float kVesselRate = 700.0;         // 1/m
-const float kVesselHalf = 42e-6;         // m, half the largest width of a capillary
-const float kTaper = 0.3;                // share of its width at an end
-const float kWanderRate = 900.0, kWander = 0.06;  // 1/m; cells of the capillaries' noise
-const float kLevel = 0.30;               // slope per cell below which there is no capillary
+const float kStemApart = 2.6e-3;         // m along the rim from one capillary to the next
+const float kVesselHalf = 46e-6;         // m, half the largest width of a capillary
+const float kTaper = 0.25;               // share of its width at an end
+const float kWanderRate = 650.0, kWander = 5e-4;  // 1/m; m to the side
+const float kFork = 1.2e-3, kForkSlope = 0.25;    // m to the side at the end; slope of a branch
 const float kCutHeight = 0.3, kCutTint = 0.34;           // bundles that a cut opens
 const float kFibril = 3.3, kFibrilTint = 0.14;           // fibrils per bundle; share of the colour
+#endif
+
+#ifdef FIBRES
+// Returns the share of capillaries: stems that enter at the rim, wander, taper and fork twice.
+// `inwards` is 0 at the rim and 1 where the red zone ends; `pixel` in m.
+float capillaries(float inwards, float pixel) {
+  float share = 0.0;
+  int here = int(floor(grain.x / kStemApart));
+  for (int i = here - 1; i <= here + 1; ++i) {
+    float size = lattice(ivec3(i, 0, 0));
+    if (size < -0.35) continue;
+    float stem = kStemApart * (float(i) + 0.5 + 0.42 * lattice(ivec3(i, 1, 0)));
+    vec4 wander = noise(vec3(17.3 * float(i), kWanderRate * grain.yz));
+    float bend = kWander * kWanderRate * length(wander.yz);
+    for (int branch = 0; branch < 3; ++branch) {
+      float chance = 0.5 + 0.5 * lattice(ivec3(i, 2, branch));
+      float begin = branch == 0 ? -1.0 : 0.1 + 0.35 * chance;
+      float end = branch == 0 ? 0.6 + 0.4 * chance : begin + 0.3 + 0.25 * chance;
+      if (inwards < begin || inwards > end) continue;
+      float side = branch == 0 ? 0.0 : branch == 1 ? 1.0 : -1.0;
+      float gone = side * max(inwards - begin, 0.0);
+      float aside = kFork * gone * (1.6 - abs(gone));
+      float away = abs(grain.x - stem - kWander * wander.w - aside) /
+                   length(vec3(1.0, bend, side * kForkSlope));
+      float left = min((end - inwards) / (end - max(begin, 0.0)), 1.0);
+      float halfWidth = kVesselHalf * (branch == 0 ? 1.0 : 0.6) * (0.75 + 0.25 * size) *
+                        mix(kTaper, 1.0, left);
+      float line = 1.0 - smoothstep(0.4 * halfWidth, 1.4 * halfWidth + pixel, away);
+      share = max(share, line * smoothstep(0.0, 0.35, left));
+    }
+  }
+  return share;
+}
 #endif
 
 #ifdef HYALINE
@@ -88,20 +121,10 @@ Pattern patternAt(vec3 normal) {
               smoothstep(kRedFrom, kRedTo, rim + kRedUneven * coarseNoise + 0.05 * sheaf);
   p.tint *= mix(vec3(1.0), rimTint, red);
   p.tint *= mix(vec3(1.0), rootTint, root);
-  // Capillaries: lines along the zeros of a noise, which wander by another one and taper towards
-  // their ends. Where the noise is level its zeros are no line.
   if (red > 0.02) {
-    vec4 wander = noise(grain * kWanderRate + 7.3);
-    vec4 value = noise(grain * kVesselRate * vec3(0.55, 1.0, 0.8) + kWander * wander.xyz);
-    float level = length(value.xyz);
-    float away = abs(value.w) / (kVesselRate * max(level, 0.1));
     float pixel = length(fwidth(grain));
-    float open = smoothstep(-0.9, 0.05, coarseNoise + 0.4 * wander.w) *
-                 smoothstep(kLevel, 3.0 * kLevel, level);
-    float halfWidth = kVesselHalf * mix(kTaper, 1.0, open);
-    float line = 1.0 - smoothstep(0.4 * halfWidth, 1.4 * halfWidth + pixel, away);
-    p.vessel =
-        red * line * smoothstep(0.0, 0.5, open) * (1.0 - smoothstep(40e-6, 160e-6, pixel));
+    p.vessel = red * capillaries((1.0 - rim) / (1.0 - kRedFrom), pixel) *
+               (1.0 - smoothstep(40e-6, 160e-6, pixel));
   }
   p.gloss *= 1.0 - 0.5 * fresh;
 #elif defined(HYALINE)
