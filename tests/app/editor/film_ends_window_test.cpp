@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/core/atomic_file.h"
 #include "tests/support/build_paths.h"
 #include "tests/support/film_frames.h"
 #include "tests/support/run_window.h"
@@ -26,16 +27,17 @@ namespace fs = std::filesystem;
 
 void Sleep(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
 
+// `errors`: file of its standard error; empty: none.
 pid_t Start(const std::vector<std::string>& words, const std::vector<std::string>& environment,
-            int kept) {
+            const fs::path& errors) {
   const pid_t child = ::fork();
   if (child != 0) return child;
   ::signal(SIGHUP, SIG_DFL);  // a test under nohup has it ignored, and so would the program
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   const int none = ::open("/dev/null", O_RDWR);
-  for (int stream = 0; stream < 3; ++stream)
-    if (stream != kept) ::dup2(none, stream);
+  for (int stream = 0; stream < 3; ++stream) ::dup2(none, stream);
+  if (!errors.empty()) ::dup2(::open(errors.c_str(), O_CREAT | O_WRONLY, 0600), 2);
   for (const std::string& one : environment) ::putenv(const_cast<char*>(one.c_str()));
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -51,7 +53,7 @@ struct Display {
     if (::pipe2(ends, 0) != 0) return;
     server = Start({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1280x1024x24",
                     "-nolisten", "tcp"},
-                   {}, -1);
+                   {}, {});
     ::close(ends[1]);
     for (char c = 0; ::read(ends[0], &c, 1) == 1 && c != '\n';) name += c;
     ::close(ends[0]);
@@ -88,12 +90,15 @@ TEST_P(FilmEndsWindow, TheFilmIsThereAfterTheNextStart) {
       Start({ARTHRO_PROGRAM, "practise", scene.string(), "--record", film.string()},
             {home, "DISPLAY=:" + display.name, "LIBGL_ALWAYS_SOFTWARE=1", "LP_NUM_THREADS=1",
              "XDG_STATE_HOME=" + (temp / "state").string()},
-            -1);
+            temp / "errors.txt");
+  int status = 0;
   // Two minutes to begin, on a busy machine; then until it has recorded for two seconds, which is
   // some 20 kB.
   for (int i = 0; i < 2400; ++i) {
     const auto films = FilmsIn(temp.path());
     if (!films.empty() && fs::file_size(films[0]) > 20'000) break;
+    ASSERT_EQ(::waitpid(practice, &status, WNOHANG), 0)
+        << "it ended with " << status << ": " << ReadWholeFile(temp / "errors.txt");
     Sleep(50);
   }
   ASSERT_EQ(FilmsIn(temp.path()).size(), 1u) << "it is recorded";
@@ -105,7 +110,6 @@ TEST_P(FilmEndsWindow, TheFilmIsThereAfterTheNextStart) {
     Sleep(1000);
     ::kill(practice, SIGKILL);
   }
-  int status = 0;
   ASSERT_EQ(::waitpid(practice, &status, 0), practice);
 
   // The next start: it need not even find a display, nor record in that folder.
