@@ -23,9 +23,13 @@ void ReturnFreeMemory() noexcept {
 
 void TakeMemoryAhead(std::size_t bytes) noexcept {
 #ifdef __GLIBC__
+  // Both limits are words that other threads may read at any time; glibc locks the rest. Half of it
+  // is the largest block that can be kept.
   constexpr int kKept = 64 << 20;
+  // NOLINTBEGIN(concurrency-mt-unsafe)
   ::mallopt(M_TRIM_THRESHOLD, kKept);
-  ::mallopt(M_MMAP_THRESHOLD, kKept / 2);  // the largest it takes: blocks above are never kept
+  ::mallopt(M_MMAP_THRESHOLD, kKept / 2);
+  // NOLINTEND(concurrency-mt-unsafe)
 #endif
   // Each block holds the address of the one before.
   void* last = nullptr;

@@ -57,11 +57,12 @@ TEST_F(TissuePattern, CapillariesOfACrescentEnterAtItsRim) {
   const ColourImage plain = drawn(0, glm::dvec3(1.0)), veined = drawn(1, glm::dvec3(1.0)),
                     dark = drawn(0, glm::dvec3(0.0));
   const auto differ = [&](const ColourImage& other, int i) {
-    const auto green = static_cast<std::size_t>(3 * i + 1);
+    const std::size_t green = 3 * static_cast<std::size_t>(i) + 1;
     return int(plain.rgb[green]) - int(other.rgb[green]) > kDark;
   };
   const auto radius = [&](int i) {
-    return std::hypot(i % kSize - 0.5 * (kSize - 1), i / kSize - 0.5 * (kSize - 1));
+    const int x = i % kSize, y = i / kSize;
+    return std::hypot(x - 0.5 * (kSize - 1), y - 0.5 * (kSize - 1));
   };
   double outer = 0, inner = kSize;
   for (int i = 0; i < kSize * kSize; ++i)
