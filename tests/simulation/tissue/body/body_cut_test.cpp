@@ -254,6 +254,28 @@ TEST(BodyCut, BiteThatIsDueTooSoonFollowsTheSolution) {
   EXPECT_TRUE(IsSound(body));
 }
 
+// Jaws that open and close at every other step, as no hand can, and no time that passes: each bite
+// still gets its shape and its solution.
+TEST(BodyCut, JawsThatChatterBiteEveryThirdStepAtMost) {
+  for (const double dt : {test::kFrame, 0.0}) {
+    BodySpec spec = test::SlabBody();
+    spec.is_cuttable = true;
+    DeformableBody body(spec, {});
+    int shapes = 0;
+    for (int i = 0; i < 60; ++i) {
+      const WorldTool tool = PunchAt(spec, 1e-3 + 5e-5 * i, i % 2);
+      ToolCoupling coupling;
+      const BodyReport report = body.Step({&tool, 1}, nullptr, dt, {&coupling, 1});
+      EXPECT_FALSE(report.was_reset && dt > 0.0) << i;
+      shapes += report.took_shape;
+    }
+    EXPECT_GT(body.cut_report().cuts, 3);
+    EXPECT_LE(body.cut_report().cuts, dt > 0.0 ? 20 : 60);
+    EXPECT_GE(shapes, body.cut_report().cuts - 1);
+    EXPECT_TRUE(IsSound(body));
+  }
+}
+
 // Nothing waits for ever where there was no memory to prepare: the cut tries it itself.
 TEST(BodyCut, CutPreparesABodyThatCouldNotBePreparedBefore) {
   BodySpec spec = test::SlabBody();
