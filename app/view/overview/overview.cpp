@@ -97,9 +97,7 @@ void Overview::Parts::BuildScene() {
   for (vtkActor* balls_of : {held.Get(), held_chosen.Get()}) {
     balls_of->ForceOpaqueOff();
     balls_of->ForceTranslucentOn();
-    // Regions are larger than what they lie on: only the near side is drawn, and faintly.
-    balls_of->GetProperty()->BackfaceCullingOn();
-    balls_of->GetProperty()->SetOpacity(balls_of == held_chosen.Get() ? 0.4 : 0.2);
+    balls_of->GetProperty()->BackfaceCullingOn();  // less hides what is in them
     balls_of->VisibilityOff();
     renderer->AddActor(balls_of);
   }

@@ -175,6 +175,9 @@ void Overview::ShowPart(const SharedSurface& surface, const Pose& portal_from_pa
   p.changed = true;
 }
 
+// Balls that hold a tissue are small on it; regions may be larger than it, and are drawn fainter.
+constexpr double kSmallBall = 4e-3, kBallOpacity = 0.6;  // m, opacity of small ones
+
 void Overview::ShowBalls(int tissue, std::span<const Ball> balls, int chosen) {
   Parts& p = *parts_;
   if (tissue >= static_cast<int>(p.tissues.size())) tissue = -1;
@@ -196,6 +199,10 @@ void Overview::ShowBalls(int tissue, std::span<const Ball> balls, int chosen) {
   for (const auto& [actor, some] :
        {std::pair{p.held.Get(), &others}, {p.held_chosen.Get(), &lit}}) {
     SetData(*actor, MakeSurfaceData(MakeBalls(*some)));
+    double widest = kSmallBall;
+    for (const Ball& ball : *some) widest = std::max(widest, ball.radius * pose.scale);
+    const double least = some == &lit ? 0.4 : 0.2;
+    actor->GetProperty()->SetOpacity(std::max(least, kBallOpacity * kSmallBall / widest));
     actor->SetUserMatrix(MatrixOf(pose));
     actor->SetVisibility(is_shown && !some->empty() ? 1 : 0);
   }
