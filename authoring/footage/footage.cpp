@@ -21,7 +21,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostFrames = 1e7;  // a larger count comes from a broken header
+constexpr double kMostFrames = 1e7;              // a larger count comes from a broken header
+constexpr double kMostPixels = 8192.0 * 8192.0;  // pixels in a frame of a video
+
+// A frame above the limit takes minutes and gigabytes.
+void RequireSize(const cv::VideoCapture& video, const fs::path& file) {
+  const double width = video.get(cv::CAP_PROP_FRAME_WIDTH);
+  const double height = video.get(cv::CAP_PROP_FRAME_HEIGHT);
+  if (width * height <= kMostPixels) return;
+  throw Error(
+      Code::kBadImage,
+      fmt::format("the frames of this video are {:.0f} x {:.0f} pixels; at most 8192 x 8192 "
+                  "can be used, so export it smaller",
+                  width, height),
+      file);
+}
 
 // Opens files only: a name must never open a camera or a network address. OpenCV's own AVI reader
 // prints to stderr and reads nothing that FFmpeg does not, so it is used only without FFmpeg.
@@ -32,7 +46,10 @@ cv::VideoCapture OpenVideo(const fs::path& file) {
       cv::videoio_registry::hasBackend(cv::CAP_FFMPEG) ? cv::CAP_FFMPEG : cv::CAP_OPENCV_MJPEG;
   try {
     cv::VideoCapture video(fs::absolute(file).string(), backend);
-    if (video.isOpened()) return video;
+    if (video.isOpened()) {
+      RequireSize(video, file);
+      return video;
+    }
   } catch (const cv::Exception&) {  // the format is unknown
   }
   throw Error(Code::kBadImage,

@@ -192,6 +192,17 @@ TEST(Footage, RefusesInOneSentenceWhatIsNoFootage) {
   EXPECT_NE(SentenceOf("").find("no such file"), std::string::npos);
 }
 
+// One frame of 16000 x 16000 pixels took 3 GB.
+TEST(Footage, RefusesFramesThatAreTooLarge) {
+  const test::TempFolder folder;
+  constexpr std::size_t kSide = 8200;
+  WriteAtomically(folder / "huge.y4m", "YUV4MPEG2 W8200 H8200 F25:1 Ip A1:1 C420jpeg\nFRAME\n" +
+                                           std::string(kSide * kSide * 3 / 2, '\x80'));
+  EXPECT_NE(SentenceOf(folder / "huge.y4m").find("8200 x 8200 pixels; at most 8192 x 8192"),
+            std::string::npos)
+      << SentenceOf(folder / "huge.y4m");
+}
+
 // The decoder would open the files of the list, so the list is refused before.
 TEST(Footage, AListOfOtherFilesIsRefusedWhateverItIsCalled) {
   const test::TempFolder folder;
