@@ -2,7 +2,8 @@
 // seed: every step finite, no step lost, memory flat from minute to minute, and the second run,
 // which makes its factors on the stepping thread, gives the same bits as the first, which makes
 // them on another. Fails (exit 1) where one of these does not hold; times are printed only. `--seed
-// N` for another session, `--minutes N` for a longer one.
+// N` for another session, `--minutes N` for a longer one, `--work N` for another limit of a step's
+// work.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -42,6 +43,7 @@ struct Plan {
   int minutes = 10;
   int minute = 3600;  // steps
   bool has_thread = true;
+  BodyOptions body;
 };
 
 // FNV-1a over the bits of numbers.
@@ -107,7 +109,7 @@ void NoteSlow(SlowStep step, std::vector<SlowStep>& slowest) {
 
 Soak Run(const Plan& plan) {
   const BodySpec spec = test::MeniscusBody();
-  TissueWorld world({spec}, {}, nullptr, plan.has_thread);
+  TissueWorld world({spec}, plan.body, nullptr, plan.has_thread);
   world.TakeMemory();
   test::RandomHand hand(plan.seed, spec.portal_from_body);
   WorldPicture picture;
@@ -283,6 +285,8 @@ int main(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; ++i) {
     if (std::strcmp(argv[i], "--seed") == 0) plan.seed = std::strtoull(argv[i + 1], nullptr, 10);
     if (std::strcmp(argv[i], "--minutes") == 0) plan.minutes = std::max(1, std::atoi(argv[i + 1]));
+    if (std::strcmp(argv[i], "--work") == 0)
+      plan.body.solver.max_work = std::max(1, std::atoi(argv[i + 1]));
   }
   const Soak first = Run(plan);
   Print(first);

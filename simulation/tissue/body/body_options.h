@@ -13,7 +13,7 @@ struct BodyOptions {
   // onto other skin in a step needs up to eight. A residual left over moves the tissue in the next
   // step. A limit of three left one in 8 % of the steps of a soak test, a limit of eight in 2 %,
   // and the slowest steps took no longer; those are cut short by their work.
-  SolverOptions solver{.max_newton = 8, .max_work = 120};
+  SolverOptions solver{.max_newton = 8, .max_work = 105};
   ToolContactOptions contact;
   ShaverOptions shaver;
   double sleep_speed = 2e-4;

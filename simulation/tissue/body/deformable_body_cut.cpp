@@ -222,6 +222,8 @@ bool DeformableBody::Impl::CutWithTools(std::span<const WorldTool> tools, double
     const bool is_shaver = std::exchange(tool.due, ToolCut::kNone) == ToolCut::kShave;
     was_cut |= CutWith(tool.bite, is_shaver, std::exchange(tool.due_time, 0.0));
   }
+  // The skin takes about as long as the elements, which the next step updates.
+  if (was_cut) cut->carved = cut->carver.Carve(field);
   return was_cut;
 }
 
@@ -274,6 +276,7 @@ void DeformableBody::Impl::MakeAuthorsCuts() {
   cut = PreparedCut();
   const MadeCuts made = MakeCuts(field, spec.cuts, spec.fixed);
   if (made.changed.empty()) return cut.reset();
+  cut->carved = cut->carver.Carve(field);
   FollowField(made.changed);
   cut->original = field;
 }
@@ -317,8 +320,8 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
   const CutMesh& after = cut->cutter.Update(field, box);
   taken.pieces = after.piece_count();
 
-  // Carves the skin of the remaining tissue and puts it on the remaining elements.
-  CarvedSkin carved = cut->carver.Carve(field);
+  // Puts the skin of the remaining tissue on the remaining elements.
+  CarvedSkin carved = std::exchange(cut->carved, CarvedSkin{});
   EmbeddedSkin skin{std::move(carved.surface), {}};
   const std::vector<int> only_copy = OnlyCopies(after, spec.mesh.ElementCount());
   const std::vector<int> previous =

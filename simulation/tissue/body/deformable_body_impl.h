@@ -39,6 +39,7 @@ struct CutState {
   SolidField original;                   // with the author's cuts, before the first tool's
   std::vector<int> element_of_vertex{};  // element of the whole mesh per vertex of the skin
   std::vector<int> whole_vertex{};       // CarvedSkin::whole_vertex of the skin
+  CarvedSkin carved{};                   // skin of the field since the last edit, for the next shape
   std::vector<int>
       element_of_node{};  // element of the whole mesh per node of the field; −1: far from it
   // Positions of field nodes in their elements; cached, since a shaver needs them ten times a
@@ -98,8 +99,8 @@ struct DeformableBody::Impl {
   std::unique_ptr<CutState> PreparedCut() const;
   void MakeAuthorsCuts();
   void CountRegions();
-  // Updates elements, state, solver and skin after the field changed within `box`. They still lack
-  // what changed in `edited`.
+  // Updates elements, state, solver and skin after the field changed within `box`, with the skin
+  // that was carved. They still lack what changed in `edited`.
   void FollowField(const Box3& box);
   // Resizes everything that has one entry per node of the shape or per vertex of the skin.
   void ResizeBuffers();

@@ -221,6 +221,10 @@ StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& 
     const bool may_go_on = report.newton < goal.max_newton && report.work < goal.max_work;
     if (is_far && goal.follows) return report;  // diverged: a smaller load step may converge
     if ((is_far || is_recovering) && may_go_on && std::isfinite(residual)) {
+      // After a cut its factor is new, and takes a step of its own.
+      constexpr int kAnew = kIterationsOfAFactor + kIterationsOfATangent + kIterationsOfARecovery;
+      if (!recovery_factor && report.newton > 0 && report.work + kAnew > goal.max_work)
+        return report;
       // Recovers inverted elements until none is left.
       report.used_fallback = true;
       report.newton += 1;

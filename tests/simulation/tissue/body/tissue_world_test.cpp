@@ -84,8 +84,9 @@ TEST(TissueWorld, NoStepDoesMuchMoreThanItsWork) {
   std::printf("most work %d of %d; %d of %d touched steps ended early\n", most,
               options.solver.max_work, ended, touched);
   EXPECT_GT(ended, 0) << "the hand is too gentle for this test";
-  // The last Newton iteration may begin just before the end, and may need a new factor.
-  EXPECT_LT(most, 2 * options.solver.max_work);
+  // The last Newton iteration may begin just before the end, and may need a new factor: 16 for its
+  // tangent, 36 for the factor, 6 at least for its system.
+  EXPECT_LT(most, options.solver.max_work + 16 + 36 + 6);
 }
 
 TEST(TissueWorld, ResetWorldContinuesLikeANewOne) {
