@@ -134,7 +134,7 @@ std::string CentringSvg(const AttemptReport& report) {
   LinePlot plot{"Targets in the picture: 0 is its centre, 1 its rim", "Time, s",
                 "Distance from the centre"};
   for (std::size_t i = 0; i < report.targets.size(); ++i) {
-    Curve curve{report.targets[i], {}};
+    Curve curve{report.targets[i].id, {}};
     bool is_seen = false;
     for (std::size_t k = 0; k < report.frames.size(); ++k) {
       const simulation::Observation& sight = report.frames[k].sight;

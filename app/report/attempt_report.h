@@ -9,6 +9,7 @@
 
 #include "app/records/attempts/attempt_record.h"
 #include "app/report/report_picture.h"
+#include "simulation/scene/exercise/exercise_target.h"
 #include "simulation/training/observe/attempt_frame.h"
 #include "simulation/training/track/track_piece.h"
 
@@ -32,7 +33,7 @@ struct AttemptReport {
   std::string program;       // version
   // Frames of the attempt, 10 ms apart; empty where its file is not at hand.
   std::vector<simulation::AttemptFrame> frames;
-  std::vector<std::string> targets;  // ids, in the order of the exercise
+  std::vector<ExerciseTarget> targets;
   StepNames steps;
   std::string group;  // name of the reference group; empty: none
   std::vector<GroupStanding> standings;

@@ -12,6 +12,7 @@
 #include "simulation/core/error.h"
 #include "simulation/scene/formats/jpeg_bytes.h"
 #include "simulation/scope/window_lens.h"
+#include "simulation/training/steps/exercise_index.h"
 #include "simulation/training/track/tissue_track.h"
 
 namespace arthro::app {
@@ -25,6 +26,7 @@ constexpr int kQuality = 85;  // 100 is the best
 std::vector<ReportPicture> DrawMoments(const LoadedScene& loaded,
                                        std::span<const simulation::TissueLook> looks,
                                        std::span<const simulation::AttemptFrame> frames,
+                                       std::span<const ExerciseTarget> targets,
                                        std::vector<simulation::TrackPiece> track,
                                        std::span<const ReportMoment> moments) {
   std::vector<ReportPicture> pictures;
@@ -43,6 +45,7 @@ std::vector<ReportPicture> DrawMoments(const LoadedScene& loaded,
       continue;
     shown.Forget();
     shown.Show(tissue.At(moment.t), loaded.scene.tissues, stills.view(), nullptr);
+    stills.view().SetLooseBodies(simulation::LooseBodiesIn(targets, frame));
     pictures.push_back(
         {moment, JpegFromColourImage(stills.Draw(PictureOfFrame(frame, optics), kEdge), kQuality)});
   }
@@ -54,7 +57,8 @@ std::string SetPictures(AttemptReport& report, const LoadedScene& loaded,
   const auto moments = MomentsOf(report.attempt, report.frames, report.steps);
   if (moments.empty()) return "";
   try {
-    report.pictures = DrawMoments(loaded, looks, report.frames, report.track, moments);
+    report.pictures =
+        DrawMoments(loaded, looks, report.frames, report.targets, report.track, moments);
   } catch (const Error& fault) {
     return fault.what();
   }

@@ -18,11 +18,12 @@ std::string SetPictures(AttemptReport& report, const LoadedScene& loaded,
                         std::span<const simulation::TissueLook> looks);
 
 // Draws the moments from the lens of the scope, with tissue as it was where `track` has it.
-// `looks`: one per tissue, or none. Throws Error(kDisplay) when nothing can draw, and Error for a
-// scene that cannot be drawn.
+// `targets`: of the exercise; the loose ones are bodies. `looks`: one per tissue, or none. Throws
+// Error(kDisplay) when nothing can draw, and Error for a scene that cannot be drawn.
 std::vector<ReportPicture> DrawMoments(const LoadedScene& loaded,
                                        std::span<const simulation::TissueLook> looks,
                                        std::span<const simulation::AttemptFrame> frames,
+                                       std::span<const ExerciseTarget> targets,
                                        std::vector<simulation::TrackPiece> track,
                                        std::span<const ReportMoment> moments);
 

@@ -23,7 +23,7 @@ namespace {
 
 void SetExercise(AttemptReport& report, const Exercise& exercise) {
   report.goal = exercise.brief;
-  for (const ExerciseTarget& target : exercise.targets) report.targets.push_back(target.id);
+  report.targets = exercise.targets;
   for (std::size_t i = 0; i < exercise.steps.size(); ++i)
     report.steps[BaseOf(exercise.steps[i]).id] = {i + 1, simulation::StepTitle(exercise.steps[i])};
 }

@@ -18,6 +18,7 @@
 #include "app/view/backdrop/backdrop_prop.h"
 #include "app/view/disturbances/lens_pass.h"
 #include "app/view/drawing/lens_model.h"
+#include "app/view/drawing/loose_body_model.h"
 #include "app/view/drawing/occlusion_pass.h"
 #include "app/view/drawing/passes/context_render_window.h"
 #include "app/view/drawing/srgb.h"
@@ -65,7 +66,8 @@ struct ArthroscopicView::Parts {
   simulation::ToolKind tool_kind = simulation::ToolKind::kNone;  // kind of these two
   ToolMesh tool_mesh;
   simulation::ToolShape tool_shape;
-  std::vector<std::unique_ptr<LensModel>> tissues;
+  std::vector<std::unique_ptr<LensModel>> tissues;  // and, behind them, the loose bodies
+  std::vector<Ball> loose;
   std::vector<std::unique_ptr<StrandModel>> strands;  // one per tissue
   std::vector<std::size_t> vertex_counts;
   // Place of each tissue, and the light around it, computed on demand.
@@ -95,6 +97,12 @@ struct ArthroscopicView::Parts {
     cost.*stage += std::chrono::duration<double>(now - begin).count();
     begin = now;
   }
+  void AddTissue(const Tissue& tissue, const SurfaceMesh& surface,
+                 const simulation::TissueLook& look);
+  void RemoveTissues(std::size_t first);
+  void AddLooseBodies();
+  // Instruments come last, since they are drawn over what is behind them when close to the lens.
+  void PutToolsLast();
   void TakeTool(simulation::ToolKind kind);
   void ShowTool(const Picture& picture, const LensFrame& frame);
   const FootageLight& LightAbout(std::size_t tissue);
@@ -235,38 +243,74 @@ bool ArthroscopicView::SetGeometry(const Backdrop& backdrop) {
   return parts_->backdrop->SetGeometry(backdrop);
 }
 
+void ArthroscopicView::Parts::AddTissue(const Tissue& tissue, const SurfaceMesh& surface,
+                                        const simulation::TissueLook& look) {
+  auto model = std::make_unique<LensModel>(LensModel::Look::kTissue);
+  model->SetLook(look, surface);
+  model->SetSurface(surface);
+  model->SetColour(tissue.colour);
+  model->SetPose(tissue.pose);
+  vertex_counts.push_back(surface.vertices.size());
+  places.push_back({MiddleOf(surface.vertices), tissue.pose, {}});
+  renderer->AddViewProp(model->actor());
+  tissues.push_back(std::move(model));
+  strands.push_back(std::make_unique<StrandModel>(look, surface));
+  strands.back()->model().SetColour(tissue.colour);
+  strands.back()->model().SetPose(tissue.pose);
+  renderer->AddViewProp(strands.back()->model().actor());
+}
+
+void ArthroscopicView::Parts::RemoveTissues(std::size_t first) {
+  for (std::size_t i = first; i < tissues.size(); ++i) {
+    renderer->RemoveViewProp(tissues[i]->actor());
+    renderer->RemoveViewProp(strands[i]->model().actor());
+  }
+  tissues.resize(first);
+  strands.resize(first);
+  vertex_counts.resize(first);
+  places.resize(first);
+}
+
+void ArthroscopicView::Parts::AddLooseBodies() {
+  for (std::size_t i = 0; i < loose.size(); ++i)
+    AddTissue(LooseBodyTissue(loose[i]), MakeLooseBody(loose[i].radius, static_cast<int>(i)),
+              LooseBodyLook());
+}
+
+void ArthroscopicView::Parts::PutToolsLast() {
+  for (LensModel* model : {&tool, &moving}) {
+    renderer->RemoveViewProp(model->actor());
+    renderer->AddViewProp(model->actor());
+  }
+}
+
 void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
                                   std::span<const SharedSurface> surfaces,
                                   std::span<const simulation::TissueLook> looks) {
   Parts& p = *parts_;
-  for (const auto& model : p.tissues) p.renderer->RemoveViewProp(model->actor());
-  for (const auto& strands : p.strands) p.renderer->RemoveViewProp(strands->model().actor());
-  p.tissues.clear();
-  p.strands.clear();
-  p.vertex_counts.clear();
-  p.places.clear();
-  for (std::size_t i = 0; i < tissues.size(); ++i) {
-    auto model = std::make_unique<LensModel>(LensModel::Look::kTissue);
-    const SurfaceMesh& surface = OrEmpty(i < surfaces.size() ? surfaces[i] : nullptr);
-    model->SetLook(i < looks.size() ? looks[i] : simulation::TissueLook{}, surface);
-    model->SetSurface(surface);
-    model->SetColour(tissues[i].colour);
-    model->SetPose(tissues[i].pose);
-    p.vertex_counts.push_back(surface.vertices.size());
-    p.places.push_back({MiddleOf(surface.vertices), tissues[i].pose, {}});
-    p.renderer->AddViewProp(model->actor());
-    p.tissues.push_back(std::move(model));
-    p.strands.push_back(std::make_unique<StrandModel>(
-        i < looks.size() ? looks[i] : simulation::TissueLook{}, surface));
-    p.strands.back()->model().SetColour(tissues[i].colour);
-    p.strands.back()->model().SetPose(tissues[i].pose);
-    p.renderer->AddViewProp(p.strands.back()->model().actor());
+  p.RemoveTissues(0);
+  for (std::size_t i = 0; i < tissues.size(); ++i)
+    p.AddTissue(tissues[i], OrEmpty(i < surfaces.size() ? surfaces[i] : nullptr),
+                i < looks.size() ? looks[i] : simulation::TissueLook{});
+  p.AddLooseBodies();
+  p.PutToolsLast();
+}
+
+bool ArthroscopicView::SetLooseBodies(std::span<const Ball> bodies) {
+  Parts& p = *parts_;
+  if (std::ranges::equal(bodies, p.loose)) return false;
+  const std::size_t first = p.tissues.size() - p.loose.size();
+  const bool are_same = std::ranges::equal(bodies, p.loose, {}, &Ball::radius, &Ball::radius);
+  p.loose.assign(bodies.begin(), bodies.end());
+  if (!are_same) {
+    p.RemoveTissues(first);
+    p.AddLooseBodies();
+    p.PutToolsLast();
+    return true;
   }
-  // Instruments come last, since they are drawn over what is behind them when close to the lens.
-  for (LensModel* model : {&p.tool, &p.moving}) {
-    p.renderer->RemoveViewProp(model->actor());
-    p.renderer->AddViewProp(model->actor());
-  }
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    SetTissuePose(static_cast<int>(first + i), LooseBodyTissue(bodies[i]).pose);
+  return true;
 }
 
 bool ArthroscopicView::SetTissueShape(int index, std::span<const glm::dvec3> positions,

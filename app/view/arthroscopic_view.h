@@ -59,6 +59,9 @@ class ArthroscopicView {
   void SetTissueSurface(int index, const SurfaceMesh& surface,
                         std::span<const std::uint8_t> fresh = {});
   void SetTissuePose(int index, const Pose& portal_from_tissue);
+  // Loose bodies beside the tissues, in the portal frame; none: an empty list. Returns whether
+  // anything changed.
+  bool SetLooseBodies(std::span<const Ball> bodies);
 
   // Draws into the texture, size x size pixels; with a camera from `rays` times as many per axis.
   // The caller binds its own framebuffer, viewport and program afterwards. Throws

@@ -233,6 +233,7 @@ void Pictures::ShowInAttempt(const EditorState& state, const simulation::WorldPi
 void Pictures::DrawExpert(const EditorState& state, int pixels) {
   if (!expert_picture_) return expert_.reset();
   ShowInAttempt(state, ExpertTissues(state));
+  scope_.SetLooseBodies(ExpertLooseBodies(state));
   Picture picture = *expert_picture_;
   picture.rays = picture_.rays;
   picture.samples = picture_.samples;
@@ -240,6 +241,7 @@ void Pictures::DrawExpert(const EditorState& state, int pixels) {
   scope_.Render(picture, pixels);
   expert_.emplace(scope_.ReadPixels());
   ShowInAttempt(state, DebriefTissues(state));
+  scope_.SetLooseBodies(ShownLooseBodies(state));
 }
 
 void Pictures::Take(const EditorState& state) {
@@ -247,6 +249,9 @@ void Pictures::Take(const EditorState& state) {
   TakeTissues(state);
   HideOutlined(state);
   TakeLiveTissues(state);
+  const std::vector<Ball> loose = ShownLooseBodies(state);
+  changed_ = scope_.SetLooseBodies(loose) || changed_;
+  overview_.ShowLooseBodies(loose);
 }
 
 const simulation::ScopeOptics& Pictures::TakeOptics(const authoring::Document& document) {

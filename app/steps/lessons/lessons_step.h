@@ -107,6 +107,9 @@ const simulation::WorldPicture* DebriefTissues(const EditorState& state);
 // The same of the expert, at the same step; null: there is none.
 const simulation::AttemptFrame* ExpertFrame(const EditorState& state);
 const simulation::WorldPicture* ExpertTissues(const EditorState& state);
+// Loose bodies of the attempt that runs or is looked back at, and of the expert; portal frame.
+std::vector<Ball> ShownLooseBodies(const EditorState& state);
+std::vector<Ball> ExpertLooseBodies(const EditorState& state);
 
 // Shows the result of an attempt in the records. Frames that cannot be read, and a scene that is
 // not the one it was made in, leave FinishedAttempt::notice. Throws Error where the records do not

@@ -84,6 +84,8 @@ class Overview {
   double handle_scale = 1.0;                     // pixels of the picture per pixel at scale 1
   // Balls of one tissue, in its own frame, the chosen one highlighted; -1: none are shown.
   void ShowBalls(int tissue, std::span<const Ball> balls, int chosen);
+  // Loose bodies, in the portal frame; none: an empty list.
+  void ShowLooseBodies(std::span<const Ball> bodies);
   // Marks on one tissue; none: an empty list.
   void ShowMarks(int tissue, std::span<const SurfaceMark> marks);
   // sRGB per vertex of the surface at hand; SetTissueSurface gives it its own colour again.

@@ -63,6 +63,8 @@ struct Overview::Parts {
   vtkSmartPointer<vtkActor> held = MakeActor({0.35, 0.65, 0.95});
   vtkSmartPointer<vtkActor> held_chosen = MakeActor({1.0, 0.85, 0.3});
 
+  std::vector<Ball> loose;
+  std::vector<vtkSmartPointer<vtkActor>> loose_actors;  // one per loose body
   // Marks on a surface, in the frame of the tissue `marked`.
   std::vector<vtkSmartPointer<vtkActor>> marks;
   int marked = -1;

@@ -10,6 +10,7 @@
 #include <vtkProperty.h>
 #include <vtkTransform.h>
 
+#include "app/view/drawing/loose_body_model.h"
 #include "app/view/drawing/srgb.h"
 #include "app/view/overview/overview_impl.h"
 #include "simulation/core/error.h"
@@ -206,6 +207,27 @@ void Overview::ShowBalls(int tissue, std::span<const Ball> balls, int chosen) {
     actor->SetUserMatrix(MatrixOf(pose));
     actor->SetVisibility(is_shown && !some->empty() ? 1 : 0);
   }
+  p.changed = true;
+}
+
+void Overview::ShowLooseBodies(std::span<const Ball> bodies) {
+  Parts& p = *parts_;
+  if (std::ranges::equal(bodies, p.loose)) return;
+  if (!std::ranges::equal(bodies, p.loose, {}, &Ball::radius, &Ball::radius)) {
+    for (const auto& actor : p.loose_actors) p.renderer->RemoveActor(actor);
+    p.loose_actors.clear();
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const glm::dvec3 c = LooseBodyTissue(bodies[i]).colour;
+      p.loose_actors.push_back(
+          MakeActor({SrgbFromLinear(c.x), SrgbFromLinear(c.y), SrgbFromLinear(c.z)}));
+      SetData(*p.loose_actors.back(),
+              MakeSurfaceData(MakeLooseBody(bodies[i].radius, static_cast<int>(i))));
+      p.renderer->AddActor(p.loose_actors.back());
+    }
+  }
+  p.loose.assign(bodies.begin(), bodies.end());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    p.loose_actors[i]->SetUserMatrix(MatrixOf(LooseBodyTissue(bodies[i]).pose));
   p.changed = true;
 }
 

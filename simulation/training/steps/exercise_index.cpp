@@ -47,6 +47,16 @@ std::optional<glm::dvec3> PlaceOf(const Exercise& exercise, const AttemptFrame& 
   return exercise.targets[i].ball;
 }
 
+std::vector<Ball> LooseBodiesIn(std::span<const ExerciseTarget> targets,
+                                const AttemptFrame& frame) {
+  std::vector<Ball> bodies;
+  const auto seen = static_cast<std::size_t>(std::max(frame.sight.targets, 0));
+  for (std::size_t i = 0; i < std::min(targets.size(), seen); ++i)
+    if (targets[i].is_loose)
+      bodies.push_back({glm::dvec3(frame.sight.target[i].place), targets[i].radius});
+  return bodies;
+}
+
 bool UsesInstrument(const ExerciseStep& step) {
   if (const auto* track = std::get_if<TrackStep>(&step)) return track->by == StepBy::kTip;
   if (const auto* follow = std::get_if<FollowStep>(&step)) return follow->by == StepBy::kTip;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ int StepIndex(const Exercise& exercise, const std::string& id);
 // Place of a target in a frame. A ball in space has one without an observation too; nothing: not
 // observed, or cut away.
 std::optional<glm::dvec3> PlaceOf(const Exercise& exercise, const AttemptFrame& frame, int target);
+
+// Loose bodies of the exercise that has these targets, where they are in a frame.
+std::vector<Ball> LooseBodiesIn(std::span<const ExerciseTarget> targets, const AttemptFrame& frame);
 
 // True for kinds of steps that are done with the instrument.
 bool UsesInstrument(const ExerciseStep& step);

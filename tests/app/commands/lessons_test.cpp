@@ -124,6 +124,28 @@ TEST(Lessons, AnAttemptThatIsStoppedIsNotPassedAndKeepsItsFrames) {
   EXPECT_EQ(state.steps.lessons->page, LessonPage::kNone);
 }
 
+TEST(Lessons, LooseBodiesAreShownWhereTheAttemptHasThemAndInTheLookBack) {
+  EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
+  Prepare(state);
+  Choose(state, "loose-body");
+  EXPECT_TRUE(ShownLooseBodies(state).empty());
+  app::Run(state, "begin-exercise");
+  Settle(state);
+  ASSERT_TRUE(state.practice);
+  for (int i = 0; i < 10; ++i) Frame(state);
+  const std::vector<Ball> live = ShownLooseBodies(state);
+  ASSERT_EQ(live.size(), 2U);
+  EXPECT_EQ(live[0].radius, 0.002);
+  EXPECT_EQ(glm::vec3(live[0].centre),
+            state.steps.lessons->running->frames.back().sight.target[0].place);
+  app::Run(state, "leave-practice");
+  EXPECT_TRUE(ShownLooseBodies(state).empty());
+  app::Run(state, "attempt-debrief");
+  EXPECT_EQ(ShownLooseBodies(state), live) << "nothing has touched them";
+  app::Run(state, "close-lesson");
+  EXPECT_TRUE(ShownLooseBodies(state).empty());
+}
+
 TEST(Lessons, AnAuthoredExerciseCanBeUndoneStepByStepAndBegun) {
   EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
   Prepare(state);

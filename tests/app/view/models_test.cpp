@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/view/drawing/loose_body_model.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/shaders/constants.h"
 #include "simulation/core/units.h"
@@ -94,6 +95,52 @@ TEST_F(ModelsView, ReliefHidesOnlyTissueBehindIt) {
     const double distance = view_->ReadDistances()[100 * 200 + 100];
     EXPECT_NEAR(distance, c.seen ? c.ball_at - 0.003 - 0.01 : 0.05 - c.relief - 0.01, 30e-6);
   }
+}
+
+TEST_F(ModelsView, ALooseBodyIsDrawnInItsBallWhereverItIsCarried) {
+  constexpr int kSize = 200;
+  const LoadedScene loaded = MakeViewScene(256, 256);
+  view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
+  const Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.4);
+  const auto middle = [&] { return view_->ReadDistances()[100 * kSize + 100]; };
+  view_->Render(picture, kSize);
+  const ColourImage without = view_->ReadPixels();
+  const double bare = middle();
+  Ball body{{0, 0, 0.024}, 0.002};
+  EXPECT_TRUE(view_->SetLooseBodies(std::span(&body, 1)));
+  EXPECT_FALSE(view_->SetLooseBodies(std::span(&body, 1))) << "it is there already";
+  // Its surface has dents, which lie in the ball. 0.03 mm: steps of the depth buffer.
+  const auto expect_at = [&](double distance) {
+    view_->Render(picture, kSize);
+    EXPECT_GT(middle(), distance - body.radius - 3e-5);
+    EXPECT_LT(middle(), distance - body.radius * (1 - app::kDeepestDent) + 3e-5);
+  };
+  expect_at(0.014);
+  body.centre.z = 0.019;
+  EXPECT_TRUE(view_->SetLooseBodies(std::span(&body, 1)));
+  expect_at(0.009);
+  // Tissues that are shown anew leave it where it is.
+  view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
+  expect_at(0.009);
+  view_->SetTissues({}, {});
+  EXPECT_TRUE(view_->SetLooseBodies({}));
+  view_->Render(picture, kSize);
+  EXPECT_FLOAT_EQ(middle(), bare);
+  EXPECT_EQ(view_->ReadPixels().rgb, without.rgb);
+}
+
+TEST(LooseBodyModel, IsClosedAndNoTwoAreAlike) {
+  const SurfaceMesh body = app::MakeLooseBody(0.002, 0);
+  double volume = 0;
+  for (const auto& t : body.triangles)
+    volume += glm::dot(body.vertices[static_cast<std::size_t>(t[0])],
+                       glm::cross(body.vertices[static_cast<std::size_t>(t[1])],
+                                  body.vertices[static_cast<std::size_t>(t[2])])) /
+              6;
+  const double ball = 4.0 / 3 * std::numbers::pi * 8e-9;
+  EXPECT_GT(volume, 0.75 * ball);
+  EXPECT_LT(volume, ball);
+  EXPECT_NE(body.vertices, app::MakeLooseBody(0.002, 1).vertices);
 }
 
 // Tissues of edges up to 1 mm, whose distances are interpolated.

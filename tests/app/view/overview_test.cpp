@@ -81,6 +81,25 @@ TEST_F(OverviewTest, DrawsOnlyWhenSomethingChanged) {
       << "no such tissue: none is chosen";
 }
 
+TEST_F(OverviewTest, ShowsALooseBodyWhereItIs) {
+  const auto pixel = [&] {
+    const ColourImage picture = overview_->ReadPixels();
+    const glm::ivec2 at = *overview_->PixelOf({0.0, 0.003, 0.0105});
+    return std::array{picture.at(at.x, at.y)[0], picture.at(at.x, at.y)[1],
+                      picture.at(at.x, at.y)[2]};
+  };
+  const auto before = pixel();
+  const Ball body{{0.0, 0.003, 0.0105}, 0.002};
+  overview_->ShowLooseBodies(std::span(&body, 1));
+  EXPECT_TRUE(overview_->Render(kOverviewSize, kOverviewSize));
+  EXPECT_NE(pixel(), before);
+  overview_->ShowLooseBodies(std::span(&body, 1));
+  EXPECT_FALSE(overview_->Render(kOverviewSize, kOverviewSize)) << "it is there already";
+  overview_->ShowLooseBodies({});
+  EXPECT_TRUE(overview_->Render(kOverviewSize, kOverviewSize));
+  EXPECT_EQ(pixel(), before);
+}
+
 // The relief as it is drawn has fewer pixels than the panorama and lies at the same place: of a
 // bare level relief, which has no detail to lose, the same picture.
 TEST_F(OverviewTest, AMapOfLargerPixelsLiesAtThePlaceOfThePanorama) {

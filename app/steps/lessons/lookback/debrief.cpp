@@ -4,6 +4,8 @@
 
 #include "app/steps/lessons/lessons_step.h"
 #include "app/steps/lessons/lookback/expert.h"
+#include "app/steps/lessons/running_attempt.h"
+#include "simulation/training/steps/exercise_index.h"
 #include "simulation/training/steps/same_moment.h"
 
 namespace arthro::app {
@@ -52,6 +54,21 @@ const simulation::WorldPicture* ExpertTissues(const EditorState& state) {
   const Expert* expert = ShownExpert(state);
   if (expert == nullptr || !expert->track) return nullptr;
   return &expert->track->At(MomentOfExpert(state, *expert));
+}
+
+std::vector<Ball> ShownLooseBodies(const EditorState& state) {
+  const LessonsStep& step = *state.steps.lessons;
+  if (const simulation::AttemptFrame* frame = DebriefFrame(state))
+    return simulation::LooseBodiesIn(step.finished->exercise.targets, *frame);
+  if (!step.running || step.running->frames.empty()) return {};
+  return simulation::LooseBodiesIn(step.running->engine.exercise().targets,
+                                   step.running->frames.back());
+}
+
+std::vector<Ball> ExpertLooseBodies(const EditorState& state) {
+  const simulation::AttemptFrame* frame = ExpertFrame(state);
+  if (frame == nullptr) return {};
+  return simulation::LooseBodiesIn(state.steps.lessons->finished->exercise.targets, *frame);
 }
 
 void PlayDebrief(EditorState& state, double seconds) {
