@@ -112,9 +112,13 @@ AttemptReport AssessExercise(const AssessJob& job, const LoadedScene& loaded,
   simulation::RecordedAttempt attempt = Observed(job, loaded, exercise, bytes, head);
   const auto records = GroupRecords(job);
   const std::string hash = ExerciseRowOf(exercise).hash;
+  const auto expert = GhostOf(loaded, exercise);
+  simulation::GhostPath ghost;
+  if (expert) ghost = {expert->recording.frames, expert->result.steps};
   const simulation::AttemptResult result = simulation::ResultOfRecording(
       attempt, exercise, simulation::SurfaceNames(loaded.scene),
-      records ? GroupValuesOf(*records, hash) : std::vector<simulation::GroupValues>(), job.limits);
+      records ? GroupValuesOf(*records, hash) : std::vector<simulation::GroupValues>(), job.limits,
+      expert ? &ghost : nullptr);
   AttemptReport report = MakeReport(exercise, result, std::move(attempt.frames));
   report.track = std::move(attempt.track);
   report.attempt.id = head.attempt;

@@ -48,4 +48,13 @@ ExpertAttempt ReadExpert(const LoadedScene& loaded, const Exercise& exercise,
   return expert;
 }
 
+std::optional<ExpertAttempt> GhostOf(const LoadedScene& loaded, const Exercise& exercise) {
+  if (exercise.ghost.empty()) return std::nullopt;
+  try {
+    return ReadExpert(loaded, exercise, FileOf(loaded, exercise.ghost));
+  } catch (const Error&) {  // the check of the scene, and the look back, say why
+    return std::nullopt;
+  }
+}
+
 }  // namespace arthro::app

@@ -32,4 +32,8 @@ struct ExpertAttempt {
 ExpertAttempt ReadExpert(const LoadedScene& loaded, const Exercise& exercise,
                          const std::filesystem::path& file);
 
+// The recording that the exercise itself names, for ghost_distance; nothing where it names none, or
+// one that cannot be read.
+std::optional<ExpertAttempt> GhostOf(const LoadedScene& loaded, const Exercise& exercise);
+
 }  // namespace arthro::app

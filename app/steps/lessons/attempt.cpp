@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/records/keeping/expert_attempt.h"
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/keeping/start_board.h"
 #include "app/steps/lessons/running_attempt.h"
@@ -73,10 +74,14 @@ void EndAttempt(EditorState& state) {
   finished.is_test = step.is_test;
   finished.frames = std::move(running.frames);
   finished.track = std::make_shared<simulation::TissueTrack>(std::move(running.track));
+  const auto expert = GhostOf(state.document(), finished.exercise);
+  simulation::GhostPath ghost;
+  if (expert) ghost = {expert->recording.frames, expert->result.steps};
   finished.result = simulation::ResultOf(
       running.engine,
       simulation::MeasureExercise(finished.frames, running.engine,
-                                  simulation::SurfaceNames(state.document().scene)),
+                                  simulation::SurfaceNames(state.document().scene), {},
+                                  expert ? &ghost : nullptr),
       GroupsFor(*step.records, finished.exercise));
   state.practice.reset();
   step.running.reset();

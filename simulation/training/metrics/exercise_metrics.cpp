@@ -183,6 +183,19 @@ void MeasureTissue(std::span<const AttemptFrame> frames, const StepEngine& engin
   values.Give("bites_outside", "instrument", CountOf(engine, EventKind::kCutOutside));
 }
 
+void MeasureGhost(std::span<const AttemptFrame> frames, const StepEngine& engine,
+                  const GhostPath* ghost, MetricCollector& values) {
+  const Exercise& exercise = engine.exercise();
+  const bool uses_instrument = std::ranges::any_of(exercise.steps, UsesInstrument);
+  const DeviceRole role = uses_instrument ? DeviceRole::kInstrument : DeviceRole::kScope;
+  std::optional<double> distance;
+  if (ghost != nullptr) distance = GhostDistance(frames, engine.steps(), *ghost, role);
+  values.Give("ghost_distance", uses_instrument ? "instrument" : "scope", distance,
+              exercise.ghost.empty() ? "the exercise has no recording of an expert"
+              : ghost == nullptr     ? "the recording of the expert is not at hand"
+                                     : "no step was done that the expert has done");
+}
+
 std::optional<double> Share(int part, int all) {
   return all > 0 ? std::optional(static_cast<double>(part) / all) : std::nullopt;
 }
@@ -192,7 +205,7 @@ std::optional<double> Share(int part, int all) {
 std::vector<MetricValue> MeasureExercise(std::span<const AttemptFrame> frames,
                                          const StepEngine& engine,
                                          const std::vector<std::string>& surfaces,
-                                         const MetricLimits& limits) {
+                                         const MetricLimits& limits, const GhostPath* ghost) {
   std::vector<MetricValue> measured = MeasureAttempt(frames, surfaces, limits);
   MetricCollector values;
   for (const MetricValue& value : measured)
@@ -202,6 +215,7 @@ std::vector<MetricValue> MeasureExercise(std::span<const AttemptFrame> frames,
   MeasureTriangulation(frames, engine, values);
   MeasureScope(frames, values);
   MeasureTissue(frames, engine, values);
+  MeasureGhost(frames, engine, ghost, values);
   const AttemptMeasures& sums = engine.measures();
   constexpr std::string_view kNoStep = "the exercise has no step that measures it";
   values.Give("look_downs", "both", CountOf(engine, EventKind::kLookDown));

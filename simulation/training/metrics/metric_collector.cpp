@@ -63,6 +63,8 @@ constexpr std::array kMetrics = {
     Metric{"track_error", "Error of tracking", "m",
            "Distance from the moving goal, root mean square."},
     Metric{"line_error", "Error of the path", "m", "Distance from the path, root mean square."},
+    Metric{"ghost_distance", "Distance from the expert's path", "m",
+           "Mean distance of the tip from the way of the expert's tip in the same step."},
     Metric{"measure_error", "Error of measuring", "m", "Mean error of the measured distances."},
     Metric{"horizon", "Tilt of the horizon", "rad", "Mean turn of the camera head from upright."},
     Metric{"disturbed_share", "Share of disturbed view", "",

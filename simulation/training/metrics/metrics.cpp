@@ -16,7 +16,10 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kIdle = 0.005;         // m/s; a slower tool rests
+constexpr double kIdle = 0.005;  // m/s; a slower tool rests
+// m/s that a movement whose smoothness is measured reaches: tremor of a hand at rest is slower, and
+// so is rounding of the frames.
+constexpr double kLeastMovement = 0.001;
 constexpr double kShortestLeg = 1.0;    // s, of movement whose smoothness is measured
 constexpr double kReleasedAfter = 0.3;  // s without a touch, after which another contact begins
 
@@ -70,13 +73,15 @@ double RollStep(const Hand& hand, const HandPath& path, std::size_t k) {
   return std::abs(static_cast<double>(hand.at(frame).roll) - hand.at(frame - 1).roll);
 }
 
-// Median of what `measure` gives for the stretches that are long enough.
+// Median of what `measure` gives for the stretches that are long enough and in which the tool
+// moves.
 std::optional<double> MedianOfLegs(
     const Hand& hand,
     const std::function<std::optional<double>(std::span<const double>)>& measure) {
   std::vector<double> values;
   for (const HandPath& path : hand.paths)
-    if (path.duration() >= kShortestLeg)
+    if (path.duration() >= kShortestLeg &&
+        *std::max_element(path.speed.begin(), path.speed.end()) >= kLeastMovement)
       if (const auto value = measure(path.speed)) values.push_back(*value);
   if (values.empty()) return std::nullopt;
   std::sort(values.begin(), values.end());

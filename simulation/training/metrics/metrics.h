@@ -14,7 +14,7 @@
 namespace arthro::simulation {
 
 // Raised when the same frames would give another value.
-inline constexpr int kMetricsVersion = 2;
+inline constexpr int kMetricsVersion = 3;
 
 struct Metric {
   std::string_view id, name, unit, help;  // `name`: for a reader

@@ -56,9 +56,11 @@ StepEngine EngineOfRecording(const RecordedAttempt& recording, const Exercise& e
 
 AttemptResult ResultOfRecording(const RecordedAttempt& recording, const Exercise& exercise,
                                 const std::vector<std::string>& surfaces,
-                                std::span<const GroupValues> groups, const MetricLimits& limits) {
+                                std::span<const GroupValues> groups, const MetricLimits& limits,
+                                const GhostPath* ghost) {
   const StepEngine engine = EngineOfRecording(recording, exercise, limits);
-  return ResultOf(engine, MeasureExercise(recording.frames, engine, surfaces, limits), groups);
+  return ResultOf(engine, MeasureExercise(recording.frames, engine, surfaces, limits, ghost),
+                  groups);
 }
 
 }  // namespace arthro::simulation

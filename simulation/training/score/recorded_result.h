@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simulation/training/attempt_log.h"
+#include "simulation/training/metrics/ghost_distance.h"
 #include "simulation/training/score/criteria.h"
 #include "simulation/training/steps/trainee_act.h"
 
@@ -21,10 +22,10 @@ std::vector<std::vector<TraineeAct>> ActsOf(std::span<const AttemptEvent> events
 StepEngine EngineOfRecording(const RecordedAttempt& recording, const Exercise& exercise,
                              const MetricLimits& limits = {});
 
-// `surfaces`: as MeasureAttempt takes them.
+// `surfaces` and `ghost`: as MeasureExercise takes them.
 AttemptResult ResultOfRecording(const RecordedAttempt& recording, const Exercise& exercise,
                                 const std::vector<std::string>& surfaces,
                                 std::span<const GroupValues> groups = {},
-                                const MetricLimits& limits = {});
+                                const MetricLimits& limits = {}, const GhostPath* ghost = nullptr);
 
 }  // namespace arthro::simulation

@@ -6,21 +6,8 @@
 namespace arthro::simulation {
 namespace {
 
-struct Span {
-  double begin = 0, end = 0;  // s
-};
-
 bool IsDone(const StepResult& step) {
   return step.outcome == StepOutcome::kDone && step.ended.has_value();
-}
-
-// Time in which a step was done: since the end of the step done before it.
-Span TimeOf(std::span<const StepResult> steps, const StepResult& step) {
-  Span span{step.began, step.ended.value_or(step.began)};
-  for (const StepResult& each : steps)
-    if (IsDone(each) && &each != &step && *each.ended <= span.end)
-      span.begin = std::max(span.begin, *each.ended);
-  return span;
 }
 
 const StepResult* Find(std::span<const StepResult> steps, const std::string& id) {
@@ -41,6 +28,14 @@ const StepResult* StepAt(std::span<const StepResult> steps, double t) {
 
 }  // namespace
 
+StepTime TimeOf(std::span<const StepResult> steps, const StepResult& step) {
+  StepTime time{step.began, step.ended.value_or(step.began)};
+  for (const StepResult& each : steps)
+    if (IsDone(each) && &each != &step && *each.ended <= time.end)
+      time.begin = std::max(time.begin, *each.ended);
+  return time;
+}
+
 double SameMoment(std::span<const StepResult> own, std::span<const StepResult> other, double t) {
   const StepResult* step = StepAt(own, t);
   if (step == nullptr)
@@ -49,9 +44,9 @@ double SameMoment(std::span<const StepResult> own, std::span<const StepResult> o
   if (step == nullptr) return t;
   const StepResult* same = Find(other, step->id);
   if (same == nullptr || !IsDone(*same)) return t;
-  const Span there = TimeOf(other, *same);
+  const StepTime there = TimeOf(other, *same);
   if (!IsDone(*step)) return std::clamp(there.begin + (t - step->began), there.begin, there.end);
-  const Span here = TimeOf(own, *step);
+  const StepTime here = TimeOf(own, *step);
   const double share = here.end > here.begin
                            ? std::clamp((t - here.begin) / (here.end - here.begin), 0.0, 1.0)
                            : 1.0;

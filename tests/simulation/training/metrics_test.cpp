@@ -237,6 +237,17 @@ TEST(Metrics, ValueThatIsMissingSaysWhy) {
   EXPECT_FALSE(ValueOf(still, "sparc", "instrument").has_value());
 }
 
+// Rounding of a resting tool is no movement.
+TEST(Metrics, SmoothnessOfAToolThatRestsIsNotMeasured) {
+  const auto frames = FramesOf(8, 1000, [](double t) {
+    const double tremor = 2e-6 * std::sin(kRadianPerTurn * 8 * t);  // m; 0.1 mm/s
+    return Instrument(ToolAt({0.01 + tremor, 0, 0.02}));
+  });
+  EXPECT_FALSE(ValueOf(frames, "sparc", "instrument").has_value());
+  EXPECT_FALSE(ValueOf(frames, "ldlj", "instrument").has_value());
+  EXPECT_TRUE(ValueOf(frames, "path", "instrument").has_value());
+}
+
 double ExerciseValue(const std::vector<AttemptFrame>& frames, std::string_view id,
                      const std::vector<ExerciseStep>& steps = {}, int targets = 1) {
   StepEngine engine(test::ExerciseOf(steps, targets));
@@ -292,6 +303,36 @@ TEST(ExerciseMetrics, SharesOfTargetsCountEachOnce) {
   const std::vector<AttemptFrame> frames(150, test::QuietFrame(2));
   EXPECT_NEAR(ExerciseValue(frames, "seen_share", {one, two}, 2), 0.5, 1e-12);
   EXPECT_TRUE(std::isnan(ExerciseValue(frames, "probed_share", {one, two}, 2)));
+}
+
+// The expert's tip goes along x for the step; the trainee's goes the same way 2 mm beside it.
+TEST(ExerciseMetrics, GhostDistanceIsTheMeanDistanceFromTheExpertsWayInTheSameStep) {
+  ProbeStep step;
+  step.targets = {"t0"};
+  Exercise exercise = test::ExerciseOf({step});
+  exercise.ghost = "expert.attempt";
+  const auto way = [](float beside) {
+    std::vector<AttemptFrame> frames(400, test::QuietFrame());
+    for (std::size_t k = 0; k < 300; ++k)
+      frames[k].tool[1].drawn_tip = {1e-4F * static_cast<float>(k), beside, 0.01F};
+    // Then the target is pressed, which ends the step.
+    std::fill(frames.begin() + 300, frames.end(), test::PressFrame(0, 1));
+    return frames;
+  };
+  const auto expert = way(0), trainee = way(0.002F);
+  StepEngine own(exercise), ghost(exercise);
+  AdvanceAll(own, trainee);
+  AdvanceAll(ghost, expert);
+  ASSERT_EQ(ghost.steps()[0].outcome, StepOutcome::kDone);
+  const GhostPath path{expert, ghost.steps()};
+  // Frames 1 to 299 are 2 mm beside, 50 press where the expert pressed.
+  EXPECT_NEAR(*GhostDistance(trainee, own.steps(), path, DeviceRole::kInstrument),
+              0.002 * 299 / 349, 2e-5);
+  EXPECT_FALSE(GhostDistance({}, own.steps(), path, DeviceRole::kInstrument).has_value());
+  bool is_given = false;
+  for (const MetricValue& value : MeasureExercise(trainee, own, {"backdrop"}, {}, &path))
+    if (value.metric->id == "ghost_distance") is_given = value.value.has_value();
+  EXPECT_TRUE(is_given);
 }
 
 TEST(Metrics, SameFramesGiveTheSameBits) {
