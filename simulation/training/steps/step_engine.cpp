@@ -22,15 +22,19 @@ StepEngine::StepEngine(Exercise exercise, double safe_force)
     : exercise_(std::move(exercise)), safe_force_(safe_force) {
   events_.reserve(kUsualEvents);
   states_.resize(exercise_.steps.size());
+  strip_.open.reserve(exercise_.steps.size());
+  std::size_t most_cues = 0;
   for (const ExerciseStep& step : exercise_.steps) {
     results_.push_back({BaseOf(step).id, StepOutcome::kPending, 0, std::nullopt});
     uses_instrument_ = uses_instrument_ || UsesInstrument(step);
     const auto targets = static_cast<int>(TargetsOf(exercise_, step).size());
+    most_cues += static_cast<std::size_t>(targets) + 1;
     if (std::holds_alternative<SeeStep>(step) || std::holds_alternative<HoldStep>(step) ||
         std::holds_alternative<PeriscopeStep>(step))
       measures_.to_see += targets;
     if (std::holds_alternative<ProbeStep>(step)) measures_.to_probe += targets;
   }
+  strip_.cues.reserve(most_cues);
   for (const AvoidZone& zone : exercise_.avoid)
     for (const AvoidBy by : {AvoidBy::kInstrument, AvoidBy::kScope}) {
       const bool counts = zone.by == by || zone.by == AvoidBy::kBoth;
@@ -273,6 +277,13 @@ void StepEngine::UpdateStrip(const StepFrame& at) {
   strip_.goal.reset();
   strip_.is_cue_due = false;
   strip_.progress = 0;
+  strip_.open.clear();
+  strip_.cues.clear();
+  for (std::size_t i = 0; i < results_.size(); ++i) {
+    if (results_[i].outcome != StepOutcome::kRunning) continue;
+    strip_.open.push_back({static_cast<int>(i), states_[i].progress});
+    if (states_[i].is_cue_due) AddCues(static_cast<int>(i), at, states_[i], strip_.cues);
+  }
   if (strip_.step < 0) return;
   const auto index = static_cast<std::size_t>(strip_.step);
   const ExerciseStep& step = exercise_.steps[index];

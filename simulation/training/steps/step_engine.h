@@ -26,6 +26,13 @@ inline constexpr std::string_view kAskedFor = "asked for";
 // Reason for which an attempt ended.
 enum class AttemptEnd { kRunning, kCompleted, kStepFailed, kLimit, kStopped, kVoid };
 
+// A step under way.
+struct OpenStep {
+  int step = -1;        // number in the exercise
+  double progress = 0;  // share of it, 0 to 1
+  friend bool operator==(const OpenStep&, const OpenStep&) = default;
+};
+
 // State of an attempt for the strip above the picture.
 struct StripState {
   int step = -1;        // number of the step under way, the first of several; −1: none
@@ -36,6 +43,8 @@ struct StripState {
   double time = 0;                       // s without pauses
   std::optional<double> step_time_left;  // s
   bool is_cue_due = false;
+  std::vector<OpenStep> open;      // steps under way: of a free order all that are not done
+  std::vector<StripCue> cues;      // of those steps
   std::optional<glm::dvec3> goal;  // moving goal of the step; portal frame
   double haze = 0;                 // strength that a bleeding asks of the picture, 0 to 1
   bool is_paused = false;

@@ -434,6 +434,22 @@ std::optional<glm::dvec3> MovingGoal(const ExerciseStep& step, const StepFrame& 
   return std::nullopt;
 }
 
+void AddCues(int number, const StepFrame& at, const StepState& state, std::vector<StripCue>& cues) {
+  const ExerciseStep& step = at.exercise.steps[static_cast<std::size_t>(number)];
+  const auto add = [&](int target) { cues.push_back({number, target, BaseOf(step).cue}); };
+  if (std::holds_alternative<PeriscopeStep>(step)) {
+    if (state.at < state.targets.size()) add(state.targets[state.at]);
+    return;
+  }
+  const auto* transfer = std::get_if<TransferStep>(&step);
+  if (transfer != nullptr && state.held >= 0) return add(TargetIndex(at.exercise, transfer->to));
+  for (std::size_t i = 0; i < state.targets.size(); ++i) {
+    const bool is_done =
+        transfer != nullptr ? state.dwell[i].frames >= FramesOf(kAtRest) : state.dwell[i].is_done;
+    if (!is_done) add(state.targets[i]);
+  }
+}
+
 std::optional<glm::dvec2> ForceBandOf(const ExerciseStep& step) {
   if (const auto* probe = std::get_if<ProbeStep>(&step)) return probe->force;
   if (const auto* recover = std::get_if<RecoverStep>(&step)) return recover->force;

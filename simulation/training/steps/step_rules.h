@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -46,6 +47,17 @@ StepOutcome AdvanceStep(const ExerciseStep& step, const StepFrame& at, StepState
 // Place of a step's goal now, for the picture; nothing for steps without a moving goal.
 std::optional<glm::dvec3> MovingGoal(const ExerciseStep& step, const StepFrame& at,
                                      const StepState& state);
+
+// Target that a step asks for now, whose cue is due.
+struct StripCue {
+  int step = -1, target = -1;  // numbers in the exercise
+  CueKind kind = CueKind::kNone;
+  friend bool operator==(const StripCue&, const StripCue&) = default;
+};
+
+// Adds the targets that a step asks for now: of a ring the next one, of a body in the grasper its
+// goal, else those that are not done.
+void AddCues(int number, const StepFrame& at, const StepState& state, std::vector<StripCue>& cues);
 
 // Forces between which the step wants the tip; nothing for others.
 std::optional<glm::dvec2> ForceBandOf(const ExerciseStep& step);

@@ -420,6 +420,73 @@ TEST(StepEngine, GivesItsCueLateOrWhenAsked) {
   EXPECT_EQ(CountOf(asked, EventKind::kCue), 1);
 }
 
+std::vector<int> OpenSteps(const StepEngine& engine) {
+  std::vector<int> steps;
+  for (const OpenStep& open : engine.strip().open) steps.push_back(open.step);
+  return steps;
+}
+
+std::vector<int> CuedTargets(const StepEngine& engine) {
+  std::vector<int> targets;
+  for (const StripCue& cue : engine.strip().cues) targets.push_back(cue.target);
+  return targets;
+}
+
+TEST(StepEngine, AHintIsAboutWhatEachKindOfStepNames) {
+  const TraineeAct hint{ActKind::kHint, 0, ""};
+  TransferStep transfer;
+  transfer.bodies = {"t1", "t2"};
+  transfer.to = "t0";
+  ResectStep resect;
+  resect.regions = {"t1"};
+  RecoverStep recover;
+  recover.source = "t2";
+  PeriscopeStep ring;
+  ring.targets = {"t2", "t0"};
+  const std::pair<ExerciseStep, std::vector<int>> cases[] = {
+      {transfer, {1, 2}}, {resect, {1}}, {recover, {2}}, {ring, {2}}};
+  for (auto [step, wanted] : cases) {
+    BaseOf(step).cue = CueKind::kOutline;
+    BaseOf(step).cue_after = 60;
+    StepEngine engine(ExerciseOf({step}, 3));
+    engine.Advance(HiddenFrame(3));
+    EXPECT_TRUE(engine.strip().cues.empty()) << KindOf(step);
+    engine.Advance(HiddenFrame(3), {&hint, 1});
+    EXPECT_EQ(CuedTargets(engine), wanted) << KindOf(step);
+    EXPECT_EQ(engine.strip().cues.front().kind, CueKind::kOutline);
+  }
+}
+
+TEST(StepEngine, AHintToABodyInTheGrasperIsItsGoal) {
+  TransferStep step;
+  step.bodies = {"t1", "t2"};
+  step.to = "t0";
+  step.cue = CueKind::kOutline;
+  StepEngine engine(ExerciseOf({step}, 3));
+  AttemptFrame frame = PressFrame(2, 0, 3);
+  frame.instrument = ToolKind::kGrasper;
+  engine.Advance(frame);
+  EXPECT_EQ(CuedTargets(engine), (std::vector<int>{1, 2}));
+  frame.opening = 0;
+  engine.Advance(frame);
+  EXPECT_EQ(CuedTargets(engine), (std::vector<int>{0}));
+}
+
+TEST(StepEngine, AFreeOrderHasEveryStepOpenThatIsNotDone) {
+  Exercise exercise = ExerciseOf({With<SeeStep>({"t0"}), With<SeeStep>({"t1"})}, 2);
+  exercise.order = StepOrder::kFree;
+  for (ExerciseStep& step : exercise.steps) BaseOf(step).cue = CueKind::kName;
+  StepEngine engine(exercise);
+  AttemptFrame frame = QuietFrame(2);
+  frame.sight.target[1].is_clear = false;
+  engine.Advance(frame);
+  EXPECT_EQ(OpenSteps(engine), (std::vector<int>{0, 1}));
+  EXPECT_EQ(CuedTargets(engine), (std::vector<int>{0, 1}));
+  Repeat(engine, frame, 100);
+  EXPECT_EQ(OpenSteps(engine), (std::vector<int>{1}));
+  EXPECT_EQ(CuedTargets(engine), (std::vector<int>{1}));
+}
+
 // Frames that wander between all states of sight and touch.
 TEST(StepEngine, AnyPiecesOfARecordingGiveTheSameEvents) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
