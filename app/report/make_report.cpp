@@ -34,14 +34,23 @@ const simulation::Metric* MetricOf(const std::string& id) {
   return nullptr;
 }
 
-ReferenceGroup FindGroup(Records& records, const std::string& name, const ExerciseRow& exercise) {
+ReferenceGroup FindGroup(Records& records, const std::string& name, const ExerciseRow& exercise,
+                         const std::string& rig) {
   const auto groups = ReferenceGroupsOf(records);
   std::vector<std::string> names;
+  std::string other_rig;
   for (const ReferenceGroup& group : groups) {
     if (group.exercise != exercise.hash) continue;
-    if (group.name == name) return group;
+    if (group.name == name && RigOf(group) == rig) return group;
+    if (group.name == name) other_rig = RigOf(group);
     names.push_back(group.name);
   }
+  if (!other_rig.empty())
+    throw Error(
+        Code::kBadArgument,
+        fmt::format("the attempts of the reference group {} were made with {}, and this one "
+                    "with {}; they are not compared. Choose a group with the same rig",
+                    name, other_rig, rig.empty() ? "a rig that is not known" : rig));
   throw Error(Code::kBadArgument,
               names.empty()
                   ? fmt::format("the records hold no reference group for this version of the "
@@ -105,31 +114,37 @@ void SetExpert(AttemptReport& report, const LoadedScene& loaded, const Exercise&
   report.expert = std::move(expert.metrics);
 }
 
+std::vector<GroupStanding> StandingsIn(Records& records, const ReferenceGroup& group,
+                                       const AttemptRecord& attempt) {
+  const auto members = MemberValues(records, group);
+  std::vector<GroupStanding> standings;
+  for (const ReferenceValueRow& row : group.values) {
+    GroupStanding& standing = standings.emplace_back();
+    standing = {row.metric, row.part, row.n, row.median, row.q1, row.q3, {}};
+    const auto own = std::find_if(
+        attempt.metrics.begin(), attempt.metrics.end(),
+        [&](const MetricRow& each) { return each.name == row.metric && each.part == row.part; });
+    const simulation::Metric* metric = MetricOf(row.metric);
+    const auto values = members.find({row.metric, row.part});
+    // Only an attempt that came to its end is held against others.
+    const bool is_whole =
+        attempt.outcome == AttemptOutcome::kPassed || attempt.outcome == AttemptOutcome::kFailed;
+    if (is_whole && own != attempt.metrics.end() && own->value && metric != nullptr &&
+        values != members.end())
+      standing.z = simulation::ZValue(*metric, *own->value, values->second);
+  }
+  return standings;
+}
+
 void SetGroup(AttemptReport& report, Records& records, const std::string& group) {
-  const ReferenceGroup found = FindGroup(records, group, report.exercise);
+  const ReferenceGroup found = FindGroup(records, group, report.exercise, report.rig);
   if (found.metrics_version != report.attempt.metrics_version)
     throw Error(Code::kBadData,
                 fmt::format("the reference group {} has metrics of version {}, and this attempt of "
                             "version {}; make the group anew with `arthroscene records reference`",
                             group, found.metrics_version, report.attempt.metrics_version));
   report.group = group;
-  const auto members = MemberValues(records, found);
-  report.standings.clear();
-  for (const ReferenceValueRow& row : found.values) {
-    GroupStanding& standing = report.standings.emplace_back();
-    standing = {row.metric, row.part, row.n, row.median, row.q1, row.q3, {}};
-    const auto own = std::find_if(
-        report.attempt.metrics.begin(), report.attempt.metrics.end(),
-        [&](const MetricRow& each) { return each.name == row.metric && each.part == row.part; });
-    const simulation::Metric* metric = MetricOf(row.metric);
-    const auto values = members.find({row.metric, row.part});
-    // Only an attempt that came to its end is held against others.
-    const bool is_whole = report.attempt.outcome == AttemptOutcome::kPassed ||
-                          report.attempt.outcome == AttemptOutcome::kFailed;
-    if (is_whole && own != report.attempt.metrics.end() && own->value && metric != nullptr &&
-        values != members.end())
-      standing.z = simulation::ZValue(*metric, *own->value, values->second);
-  }
+  report.standings = StandingsIn(records, found, report.attempt);
 }
 
 }  // namespace arthro::app

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/records/people/reference_groups.h"
 #include "app/records/store/records.h"
 #include "app/report/attempt_report.h"
 #include "simulation/scene/exercise/exercise.h"
@@ -27,8 +28,12 @@ AttemptReport ReportFromRecords(Records& records, const std::string& attempt, st
 void SetExpert(AttemptReport& report, const LoadedScene& loaded, const Exercise& exercise,
                Records* records);
 
+// Standing of an attempt's metrics in a group; z-values of an attempt that came to its end.
+std::vector<GroupStanding> StandingsIn(Records& records, const ReferenceGroup& group,
+                                       const AttemptRecord& attempt);
+
 // Sets the standing of each metric in a reference group of the report's exercise. Throws Error with
-// the groups that there are.
+// the groups that there are, and for a group of another rig.
 void SetGroup(AttemptReport& report, Records& records, const std::string& group);
 
 }  // namespace arthro::app

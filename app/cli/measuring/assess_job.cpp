@@ -20,6 +20,7 @@
 #include "app/cli/jobs.h"
 #include "app/cli/practice/shipped_presets.h"
 #include "app/cli/records/records_job.h"
+#include "app/records/keeping/expert_attempt.h"
 #include "app/records/keeping/kept_attempt.h"
 #include "app/report/assessment_file.h"
 #include "app/report/attempt_words.h"
@@ -117,8 +118,8 @@ AttemptReport AssessExercise(const AssessJob& job, const LoadedScene& loaded,
   if (expert) ghost = {expert->recording.frames, expert->result.steps};
   const simulation::AttemptResult result = simulation::ResultOfRecording(
       attempt, exercise, simulation::SurfaceNames(loaded.scene),
-      records ? GroupValuesOf(*records, hash) : std::vector<simulation::GroupValues>(), job.limits,
-      expert ? &ghost : nullptr);
+      records ? GroupValuesOf(*records, hash, head.rig) : std::vector<simulation::GroupValues>(),
+      job.limits, expert ? &ghost : nullptr);
   AttemptReport report = MakeReport(exercise, result, std::move(attempt.frames));
   report.track = std::move(attempt.track);
   report.attempt.id = head.attempt;

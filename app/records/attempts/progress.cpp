@@ -18,8 +18,9 @@ std::vector<AttemptPoint> ProgressOf(Records& records, const std::string& traine
                                      const std::string& part, Performers performers) {
   std::vector<AttemptPoint> points;
   for (const Row& row : records.database().Ask(
-           R"(SELECT attempts.id, attempts.started, attempts.mode, attempts.outcome, metrics.value
-    FROM attempts LEFT JOIN metrics ON metrics.attempt = attempts.id AND metrics.name = :metric
+           R"(SELECT attempts.id, attempts.started, attempts.mode, attempts.outcome, metrics.value,
+    sessions.rig FROM attempts JOIN sessions ON sessions.id = attempts.session
+    LEFT JOIN metrics ON metrics.attempt = attempts.id AND metrics.name = :metric
     AND (metrics.part = :part OR :any = 1)
     WHERE attempts.trainee = (SELECT id FROM trainees WHERE code = :code)
     AND attempts.exercise = :exercise AND (attempts.mode = 'robot') = (:robots = 1)
@@ -34,6 +35,7 @@ std::vector<AttemptPoint> ProgressOf(Records& records, const std::string& traine
     point.mode = ChoiceOf(AttemptModes(), TextOf(row[2]));
     point.outcome = ChoiceOf(AttemptOutcomes(), TextOf(row[3]));
     if (!std::holds_alternative<std::monostate>(row[4])) point.value = NumberOf(row[4]);
+    point.rig = TextOf(row[5]);
     points.push_back(std::move(point));
   }
   return points;

@@ -13,7 +13,7 @@
 namespace arthro::app {
 
 struct AttemptPoint {
-  std::string id, started;
+  std::string id, started, rig;  // rig: of its session
   AttemptMode mode = AttemptMode::kPractice;
   AttemptOutcome outcome = AttemptOutcome::kStopped;
   std::optional<double> value;  // SI; none: it was not measured

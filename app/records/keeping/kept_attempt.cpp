@@ -136,10 +136,11 @@ std::string KeptAttempt::Finish(Records* records, const simulation::AttemptResul
 }
 
 std::vector<simulation::GroupValues> GroupValuesOf(Records& records,
-                                                   const std::string& exercise_hash) {
+                                                   const std::string& exercise_hash,
+                                                   const std::string& rig) {
   std::vector<simulation::GroupValues> values;
   for (const ReferenceGroup& group :
-       ReferenceGroupsAt(records, exercise_hash, simulation::kMetricsVersion))
+       ReferenceGroupsAt(records, exercise_hash, simulation::kMetricsVersion, rig))
     for (const ReferenceValueRow& row : group.values)
       if (row.mean)
         values.push_back({group.name, row.metric, row.part, row.n, *row.mean, row.sd.value_or(0)});
@@ -155,7 +156,8 @@ std::optional<simulation::AttemptResult> ResultFromLog(Records& records,
     if (exercise.empty()) return std::nullopt;
     const simulation::AttemptHead head = simulation::AttemptHeadOf(recording.head);
     return simulation::ResultOfRecording(recording, ExerciseFromJson(exercise[0].json),
-                                         head.surfaces, GroupValuesOf(records, record.exercise));
+                                         head.surfaces,
+                                         GroupValuesOf(records, record.exercise, head.rig));
   } catch (const Error&) {
     return std::nullopt;
   }

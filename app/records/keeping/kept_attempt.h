@@ -70,9 +70,10 @@ class KeptAttempt {
   bool is_finished_ = false;
 };
 
-// Values of the reference groups of an exercise, for its criteria.
+// Values of the reference groups of an exercise with this rig, for its criteria.
 std::vector<simulation::GroupValues> GroupValuesOf(Records& records,
-                                                   const std::string& exercise_hash);
+                                                   const std::string& exercise_hash,
+                                                   const std::string& rig);
 
 // Assesses an attempt from its log; nothing where the log or the exercise cannot be read.
 std::optional<simulation::AttemptResult> ResultFromLog(Records& records,

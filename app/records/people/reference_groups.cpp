@@ -107,10 +107,10 @@ void Remove(Records& records, const std::string& id) {
 std::optional<ReferenceGroup> Compute(Records& records, const std::string& name,
                                       const std::string& exercise, const ReferenceRule& rule) {
   Database& database = records.database();
-  for (const Row& row :
-       database.Ask("SELECT id FROM reference_groups WHERE name = :name AND exercise = :exercise",
-                    {name, exercise}))
-    Remove(records, TextOf(row[0]));
+  for (const Row& row : database.Ask(
+           "SELECT id, rule FROM reference_groups WHERE name = :name AND exercise = :exercise",
+           {name, exercise}))
+    if (RuleOf(TextOf(row[1])).rig == rule.rig) Remove(records, TextOf(row[0]));
   const Counted counted = AttemptsThatCount(records, exercise, rule);
   if (counted.attempts.empty()) return std::nullopt;
   MetricValues values = ValuesOf(database, counted);
@@ -145,6 +145,8 @@ std::vector<ReferenceGroup> GroupsWhere(Records& records, const std::string& whe
 
 }  // namespace
 
+std::string RigOf(const ReferenceGroup& group) { return RuleOf(group.rule).rig; }
+
 ReferenceGroup MakeReferenceGroup(Records& records, const std::string& name,
                                   const std::string& exercise_hash, const ReferenceRule& rule) {
   std::optional<ReferenceGroup> group;
@@ -165,9 +167,11 @@ std::vector<ReferenceGroup> ReferenceGroupsOf(Records& records) {
 }
 
 std::vector<ReferenceGroup> ReferenceGroupsAt(Records& records, const std::string& exercise_hash,
-                                              int metrics_version) {
-  return GroupsWhere(records, "WHERE exercise = :exercise AND metrics_version = :version",
-                     {exercise_hash, static_cast<std::int64_t>(metrics_version)});
+                                              int metrics_version, const std::string& rig) {
+  auto groups = GroupsWhere(records, "WHERE exercise = :exercise AND metrics_version = :version",
+                            {exercise_hash, static_cast<std::int64_t>(metrics_version)});
+  std::erase_if(groups, [&](const ReferenceGroup& group) { return RigOf(group) != rig; });
+  return groups;
 }
 
 MetricValues MemberValues(Records& records, const ReferenceGroup& group) {

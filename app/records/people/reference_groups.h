@@ -56,14 +56,18 @@ struct ReferenceRule {
   bool is_last_only = true;
 };
 
-// Computes a group anew; one of the same name and exercise is replaced. Throws Error where no
+// Rig of the attempts that count for a group.
+std::string RigOf(const ReferenceGroup& group);
+
+// Computes a group anew; one of the same name, exercise and rig is replaced. Throws Error where no
 // attempt counts, or where their metrics have several versions.
 ReferenceGroup MakeReferenceGroup(Records& records, const std::string& name,
                                   const std::string& exercise_hash, const ReferenceRule& rule);
 std::vector<ReferenceGroup> ReferenceGroupsOf(Records& records);
-// Those of one exercise whose metrics are of this version.
+// Those of one exercise whose metrics are of this version, and whose attempts were made with the
+// same rig: forces and paths of a mouse say nothing about those of a device.
 std::vector<ReferenceGroup> ReferenceGroupsAt(Records& records, const std::string& exercise_hash,
-                                              int metrics_version);
+                                              int metrics_version, const std::string& rig);
 // Values of the attempts that count for the group now, by metric and part.
 using MetricValues = std::map<std::pair<std::string, std::string>, std::vector<double>>;
 MetricValues MemberValues(Records& records, const ReferenceGroup& group);

@@ -82,7 +82,8 @@ void EndAttempt(EditorState& state) {
       simulation::MeasureExercise(finished.frames, running.engine,
                                   simulation::SurfaceNames(state.document().scene), {},
                                   expert ? &ghost : nullptr),
-      GroupsFor(*step.records, finished.exercise));
+      GroupsFor(*step.records, finished.exercise,
+                RigWords(*state.steps.practice->hands)));
   state.practice.reset();
   step.running.reset();
   state.steps.practice->end_attempt = {};

@@ -14,6 +14,7 @@
 #include "app/records/keeping/kept_attempt.h"
 #include "app/records/people/audit.h"
 #include "app/records/people/reference_groups.h"
+#include "app/report/make_report.h"
 #include "app/state/command.h"
 #include "app/steps/lessons/instructor/cohort_board.h"
 #include "app/steps/lessons/instructor/rating_board.h"
@@ -113,6 +114,61 @@ TEST(CohortBoard, ReadsTheSameForManyTraineesAsForFew) {
   };
   // 36 rows are read for 20 that are shown.
   EXPECT_EQ(work_of(50), work_of(150));
+}
+
+// Experts and a trainee with a device, beside those with the mouse.
+void AddDevice(const Lab& lab, Records& records) {
+  AddTrainee(records, test::NewTrainee("E-2"));
+  lab.Add(records, StartSession(records, "E-2", "test", "Touch"), 0, 30, true);
+  lab.Add(records, StartSession(records, "T-2", "test", "Touch"), 0, 55, true);
+  ReferenceRule rule;
+  rule.trainees = {"E-2"};
+  rule.rig = "Touch";
+  MakeReferenceGroup(records, "experts", lab.RowOf(0).hash, rule);
+}
+
+TEST(ReferenceGroups, OfOneNameAreKeptForEachRigAndCountForItAlone) {
+  Lab lab;
+  Records records(lab.place, test::RepeatedOptions(9));
+  AddDevice(lab, records);
+  EXPECT_EQ(ReferenceGroupsOf(records).size(), 2U);
+  const auto mean_time = [&](const std::string& rig) -> std::optional<double> {
+    for (const auto& value : GroupValuesOf(records, lab.RowOf(0).hash, rig))
+      if (value.metric == "task_time") return value.mean;
+    return std::nullopt;
+  };
+  EXPECT_EQ(mean_time("mouse"), 40);
+  EXPECT_EQ(mean_time("Touch"), 30);
+  EXPECT_EQ(mean_time("mouse, zero force"), std::nullopt);
+  std::string notice;
+  AttemptReport report = ReportFromRecords(records, lab.first, notice);
+  SetGroup(report, records, "experts");
+  ASSERT_NE(StandingIn(report, "task_time", "both"), nullptr);
+  EXPECT_EQ(StandingIn(report, "task_time", "both")->median, 40);
+  report.rig = "pen";
+  try {
+    SetGroup(report, records, "experts");
+    FAIL() << "a group of another rig was taken";
+  } catch (const Error& refused) {
+    EXPECT_NE(std::string(refused.what()).find("are not compared"), std::string::npos)
+        << refused.what();
+  }
+}
+
+TEST(CohortBoard, DrawsTheBandOfTheRigOfTheTrainee) {
+  Lab lab;
+  {
+    Records records(lab.place, test::RepeatedOptions(9));
+    AddDevice(lab, records);
+  }
+  const auto band_of = [&](const std::string& code) {
+    ChooseCell(lab.state, lab.RowIndex(code), 0);
+    return lab.board().curve.band;
+  };
+  ASSERT_TRUE(band_of("T-1"));
+  EXPECT_EQ(band_of("T-1")->first, 40);
+  ASSERT_TRUE(band_of("T-2"));
+  EXPECT_EQ(band_of("T-2")->first, 30);
 }
 
 TEST(CohortBoard, DrawsTheBandOfTheGroupThatWasChosenAlsoAfterTheNextStart) {

@@ -67,8 +67,8 @@ std::string GroupOf(const CohortBoard& board) {
 }
 
 void ReadBand(Records& records, const std::string& hash, const std::string& metric,
-              const std::string& part, CohortBoard& board) {
-  const auto groups = ReferenceGroupsAt(records, hash, simulation::kMetricsVersion);
+              const std::string& part, const std::string& rig, CohortBoard& board) {
+  const auto groups = ReferenceGroupsAt(records, hash, simulation::kMetricsVersion, rig);
   board.groups.clear();
   for (const ReferenceGroup& group : groups) board.groups.push_back(group.name);
   const auto chosen = std::ranges::find(groups, GroupOf(board), &ReferenceGroup::name);
@@ -96,9 +96,11 @@ void ReadCurve(Records& records, const EditorState& state, CohortBoard& board) {
   board.metric = std::clamp(board.metric, 0, static_cast<int>(board.metrics.size()) - 1);
   const auto& [metric, part] = board.metrics[static_cast<std::size_t>(board.metric)];
   const std::string& hash = board.hashes.at(static_cast<std::size_t>(board.exercise));
-  board.curve = CurveOf(ProgressOf(records, board.rows[static_cast<std::size_t>(board.row)].code,
-                                   hash, metric, part, board.performers));
-  ReadBand(records, hash, metric, part, board);
+  const auto points = ProgressOf(records, board.rows[static_cast<std::size_t>(board.row)].code,
+                                 hash, metric, part, board.performers);
+  board.curve = CurveOf(points);
+  // The band is of the rig with which the trainee made the last attempt.
+  if (!points.empty()) ReadBand(records, hash, metric, part, points.back().rig, board);
 }
 
 // Runs `work` on the records; what they refuse is the page's fault.

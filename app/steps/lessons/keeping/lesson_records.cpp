@@ -141,10 +141,11 @@ std::string EndKeeping(LessonRecords& records, const simulation::AttemptResult& 
   }
 }
 
-std::vector<simulation::GroupValues> GroupsFor(LessonRecords& records, const Exercise& exercise) {
+std::vector<simulation::GroupValues> GroupsFor(LessonRecords& records, const Exercise& exercise,
+                                               const std::string& rig) {
   if (!records.open) return {};
   try {
-    return GroupValuesOf(*records.open, HashOf(exercise));
+    return GroupValuesOf(*records.open, HashOf(exercise), rig);
   } catch (const Error& fault) {
     records.fault = fault.what();
     return {};

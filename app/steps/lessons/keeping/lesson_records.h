@@ -48,7 +48,8 @@ std::string EndKeeping(LessonRecords& records, const simulation::AttemptResult& 
 
 // Folder of logs and outbox.
 std::filesystem::path FolderOf(const LessonRecords& records);
-// Groups for the criteria of an exercise; none where the records are not reached.
-std::vector<simulation::GroupValues> GroupsFor(LessonRecords& records, const Exercise& exercise);
+// Groups with this rig for the criteria of an exercise; none where the records are not reached.
+std::vector<simulation::GroupValues> GroupsFor(LessonRecords& records, const Exercise& exercise,
+                                               const std::string& rig);
 
 }  // namespace arthro::app
