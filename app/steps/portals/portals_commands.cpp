@@ -78,32 +78,51 @@ void LookAt(State& state) {
   state.message = "View angle " + std::to_string(degrees) + "°";
 }
 
+template <int degrees>
+bool MayLookAt(const State& state) {
+  return ShowsScope(state) &&
+         (!state.practice || state.practice->OffersAngle(RadiansFromDegrees(degrees)));
+}
+
+constexpr const char* kOtherAngle = "The exercise asks for another view angle.";
+
 constexpr Command kPortalsCommands[] = {
-    {"view-0", "0°", "Look along the scope.", "Practice", {GLFW_KEY_1}, {}, ShowsScope, LookAt<0>},
+    {"view-0",
+     "0°",
+     "Look along the scope.",
+     "Practice",
+     {GLFW_KEY_1},
+     {},
+     MayLookAt<0>,
+     LookAt<0>,
+     kOtherAngle},
     {"view-30",
      "30°",
      "Look 30° away from the scope.",
      "Practice",
      {GLFW_KEY_2},
      {},
-     ShowsScope,
-     LookAt<30>},
+     MayLookAt<30>,
+     LookAt<30>,
+     kOtherAngle},
     {"view-70",
      "70°",
      "Look 70° away from the scope.",
      "Practice",
      {GLFW_KEY_3},
      {},
-     ShowsScope,
-     LookAt<70>},
+     MayLookAt<70>,
+     LookAt<70>,
+     kOtherAngle},
     {"view-90",
      "90°",
      "Look straight to the side.",
      "Practice",
      {GLFW_KEY_4},
      {},
-     ShowsScope,
-     LookAt<90>},
+     MayLookAt<90>,
+     LookAt<90>,
+     kOtherAngle},
     {"validation-plot",
      "Validation plot…",
      "Draw the path of the view's centre as the scope rolls, and write it as a table.",

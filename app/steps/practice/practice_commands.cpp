@@ -12,7 +12,6 @@
 #include "app/steps/practice/hand_motion.h"
 #include "app/steps/practice/start_practice.h"
 #include "app/steps/practice/tissue_poke.h"
-#include "simulation/practice/hands/offered_instruments.h"
 
 namespace arthro::app {
 namespace {
@@ -56,8 +55,14 @@ void LeavePractice(State& state) {
   if (state.practice_only) state.dialogs.push_back(PracticeEndedDialog{seconds});
 }
 
+// An attempt at an exercise notes what was put back.
+void NoteReset(State& state, const char* what) {
+  if (const auto note = state.steps.practice->note_reset) note(state, what);
+}
+
 void ResetHands(State& state) {
   if (state.practice) {
+    NoteReset(state, "both hands");
     state.practice->scope().Set(simulation::StartOfScope(state.document().scene));
     state.practice->instrument().Set(simulation::StartOfInstrument(state.document().scene));
     state.steps.practice->head.turn = 0;
@@ -84,7 +89,7 @@ void ToggleZeroForce(State& state) {
 
 template <simulation::ToolKind kind>
 bool MayTake(const State& state) {
-  return Practising(state) && simulation::IsOffered(state.document().scene, kind);
+  return Practising(state) && state.practice->Offers(kind);
 }
 
 template <simulation::ToolKind kind>
@@ -175,7 +180,7 @@ constexpr Command kPracticeCommands[] = {
      {},
      MayTake<simulation::ToolKind::kProbe>,
      TakeInstrument<simulation::ToolKind::kProbe>,
-     "This scene does not offer it."},
+     "This scene or exercise does not offer it."},
     {"instrument-punch",
      "Punch",
      "Bite with the basket forceps: C closes the jaws.",
@@ -184,7 +189,7 @@ constexpr Command kPracticeCommands[] = {
      {},
      MayTake<simulation::ToolKind::kPunch>,
      TakeInstrument<simulation::ToolKind::kPunch>,
-     "This scene does not offer it."},
+     "This scene or exercise does not offer it."},
     {"instrument-shaver",
      "Shaver",
      "Remove tissue while C is held.",
@@ -193,7 +198,7 @@ constexpr Command kPracticeCommands[] = {
      {},
      MayTake<simulation::ToolKind::kShaver>,
      TakeInstrument<simulation::ToolKind::kShaver>,
-     "This scene does not offer it."},
+     "This scene or exercise does not offer it."},
     {"instrument-grasper",
      "Grasper",
      "Blunt jaws: C closes them.",
@@ -202,7 +207,7 @@ constexpr Command kPracticeCommands[] = {
      {},
      MayTake<simulation::ToolKind::kGrasper>,
      TakeInstrument<simulation::ToolKind::kGrasper>,
-     "This scene does not offer it."},
+     "This scene or exercise does not offer it."},
     {"reset-tissues",
      "Restore tissue",
      "Restore every tissue to its state at the start of the session.",
@@ -212,6 +217,7 @@ constexpr Command kPracticeCommands[] = {
      [](const State& state) { return Practising(state) && state.practice->tissues() != nullptr; },
      [](State& state) {
        state.practice->ResetTissues();
+       NoteReset(state, "tissue");
        state.message = "The tissue is as it was at the start of the session.";
      },
      "No tissue of this scene is deformed or cut."},

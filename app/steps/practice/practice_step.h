@@ -92,6 +92,8 @@ struct PracticeStep {
   bool is_film_lost = false;
   // Ends an attempt at an exercise, and its practice; empty: none runs.
   std::function<void(EditorState&)> end_attempt;
+  // Notes in an attempt what was put back, such as the tissue; empty: none runs.
+  std::function<void(EditorState&, const std::string& what)> note_reset;
   std::optional<double> asked_to_leave;  // s of the session at which leaving it asked once more
   bool shows_outside = false;            // in practice: the overview in a corner of the picture
   TraineeScreen trainee_screen;

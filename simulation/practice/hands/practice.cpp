@@ -81,7 +81,8 @@ Practice::Practice(std::unique_ptr<Session> session, const LoadedScene& loaded)
                 ScriptedDevice(session_->instrument_rig(), StartOfInstrument(loaded.scene),
                                InstrumentLimits(loaded.scene))},
       eye_(loaded),
-      offered_(OfferedInstruments(loaded.scene)) {
+      offered_(OfferedInstruments(loaded.scene)),
+      offered_by_scene_(offered_) {
   request_.options = session_->options();
   request_.incision_spacing = session_->incision_spacing();
   request_.view_angle = session_->view_angle();
@@ -222,6 +223,21 @@ void Practice::Advance(double seconds, Hands* hands) {
     if (ticks == 0) return;
   }
   TakeReports();
+}
+
+void Practice::Offer(std::vector<ToolKind> instruments, std::vector<double> view_angles) {
+  offered_ = instruments.empty() ? offered_by_scene_ : std::move(instruments);
+  std::ranges::sort(offered_);
+  offered_angles_ = std::move(view_angles);
+}
+
+bool Practice::Offers(ToolKind kind) const { return std::ranges::count(offered_, kind) > 0; }
+
+bool Practice::OffersAngle(double view_angle) const {
+  constexpr double kSame = 1e-6;  // rad
+  return offered_angles_.empty() || std::ranges::any_of(offered_angles_, [&](double angle) {
+           return std::abs(angle - view_angle) < kSame;
+         });
 }
 
 void Practice::SetMount(DeviceRole role, const DeviceRig& mount) {

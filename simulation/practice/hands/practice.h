@@ -54,6 +54,12 @@ class Practice {
   // Deformable tissues after the last Advance; nullptr: there are none.
   const WorldPicture* tissues() const { return tissues_; }
   void ResetTissues();
+  // Offers these instruments and view angles alone (rad), as an exercise asks; empty: all of the
+  // scene, and any angle.
+  void Offer(std::vector<ToolKind> instruments, std::vector<double> view_angles);
+  bool Offers(ToolKind kind) const;
+  bool OffersAngle(double view_angle) const;
+  const std::vector<ToolKind>& offered() const { return offered_; }
   ToolKind instrument_kind() const { return request_.instrument; }
   void SetInstrument(ToolKind kind) { request_.instrument = kind; }
   // Sets the mount of a hand's device, after its incision was calibrated.
@@ -101,7 +107,8 @@ class Practice {
   std::array<int, 2> episodes_{};  // HandsReport::Hand::episode
   double t_ = 0, pending_ = 0, peak_force_ = 0, running_ = 0;
   int next_presses_ = 0;
-  std::vector<ToolKind> offered_;  // instruments that the scene offers
+  std::vector<ToolKind> offered_, offered_by_scene_;  // instruments, in the order of ToolKind
+  std::vector<double> offered_angles_;                // rad; empty: any
   bool has_thread_ = false;
   std::string servo_sentence_;
   const WorldPicture* tissues_ = nullptr;
