@@ -350,7 +350,7 @@ class Editor {
       else if (state_.steps.practice->disturbing.shows_panel)
         DisturbancesPage(ui, state_, layout.side);
       else if (state_.steps.lessons->running)
-        LessonPagePanel(ui, state_, layout.side);
+        LessonPanel(ui, layout.side);
       else if (state_.steps.practice->budget->is_shown)
         BudgetPage(ui, state_, layout.side);
       else
@@ -411,15 +411,21 @@ class Editor {
     footage_textures_.EndFrame();
   }
 
+  void LessonPanel(Ui& ui, const Area& area) {
+    footage_textures_.BeginFrame();
+    LessonPagePanel(ui, state_, area,
+                    [&](const SharedPicture& picture) { return footage_textures_.IdOf(picture); });
+    footage_textures_.EndFrame();
+  }
+
   // Briefing and result take the whole page; the look back stands about the scope's picture.
   void Lesson(Ui& ui) {
     const Layout layout = EditorLayout(static_cast<float>(window_.width()),
                                        static_cast<float>(window_.height()), ui.scale);
     picture_focused_ = false;
     if (state_.steps.lessons->page != LessonPage::kDebrief)
-      return LessonPagePanel(
-          ui, state_,
-          {0, layout.picture.y, layout.overview.x + layout.overview.width, layout.picture.height});
+      return LessonPanel(ui, {0, layout.picture.y, layout.overview.x + layout.overview.width,
+                              layout.picture.height});
     Layout drawn = layout;
     drawn.picture = LookbackAreasOf(layout, ExpertFrame(state_) != nullptr, ui.scale).own;
     drawn.shows_overview = false;

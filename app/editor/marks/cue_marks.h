@@ -16,6 +16,12 @@ namespace arthro::app {
 void MarkTargets(Ui& ui, const EditorState& state, const Area& window, const Area& picture,
                  const simulation::ScopeView& view, const simulation::ScopeOptics& optics);
 
+// Places that were touched up to the moment of the look back, green, amber or red by the force.
+// `name`: of the picture's window.
+void MarkTouches(Ui& ui, const EditorState& state, const char* name, const Area& window,
+                 const Area& picture, const simulation::ScopeView& view,
+                 const simulation::ScopeOptics& optics);
+
 // One ring with a name in the current ImGui window, or one arrow.
 void MarkTarget(Ui& ui, const Area& picture, const simulation::ScopeView& view,
                 const simulation::ScopeOptics& optics, const glm::dvec3& x_in_portal,

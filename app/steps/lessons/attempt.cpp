@@ -11,7 +11,6 @@
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/practice/start_practice.h"
 #include "simulation/core/error.h"
-#include "simulation/practice/hands/offered_instruments.h"
 #include "simulation/training/metrics/exercise_metrics.h"
 #include "simulation/training/observe/exercise_targets.h"
 #include "simulation/training/observe/surface_names.h"
@@ -23,6 +22,12 @@ namespace {
 
 void SetUp(EditorState& state, const ExerciseSetup& setup) {
   simulation::Practice& practice = *state.practice;
+  if (!state.steps.lessons->is_unscored) {
+    std::vector<simulation::ToolKind> instruments;
+    for (const std::string& kind : setup.instruments)
+      instruments.push_back(simulation::ToolKindFromString(kind));
+    practice.Offer(std::move(instruments), setup.view_angles);
+  }
   PracticeStep& step = *state.steps.practice;
   if (!setup.view_angles.empty()) practice.SetViewAngle(setup.view_angles.front());
   if (setup.incision_spacing) practice.SetIncisionSpacing(*setup.incision_spacing);
@@ -72,6 +77,7 @@ void EndAttempt(EditorState& state) {
   finished.exercise = running.engine.exercise();
   finished.trainee = step.records->trainee;
   finished.is_test = step.is_test;
+  finished.is_unscored = step.is_unscored;
   finished.frames = std::move(running.frames);
   finished.track = std::make_shared<simulation::TissueTrack>(std::move(running.track));
   const auto expert = GhostOf(state.document(), finished.exercise);
@@ -82,11 +88,12 @@ void EndAttempt(EditorState& state) {
       simulation::MeasureExercise(finished.frames, running.engine,
                                   simulation::SurfaceNames(state.document().scene), {},
                                   expert ? &ghost : nullptr),
-      GroupsFor(*step.records, finished.exercise,
-                RigWords(*state.steps.practice->hands)));
+      GroupsFor(*step.records, finished.exercise, running.rig));
+  if (!finished.is_unscored) SetStanding(state, running.rig, finished);
   state.practice.reset();
   step.running.reset();
   state.steps.practice->end_attempt = {};
+  state.steps.practice->note_reset = {};
   if (step.records->attempt) {
     const AttemptRecord& record = step.records->attempt->record();
     finished.id = record.id;
@@ -124,15 +131,18 @@ bool MayBeginExercise(const EditorState& state) {
   return ChosenExercise(state) != nullptr && MayPractise(state) && WhyShut(state).empty();
 }
 
-void BeginExercise(EditorState& state) {
+namespace {
+
+void BeginAttempt(EditorState& state, bool is_unscored) {
   if (HasUnkeptAttempt(state)) KeepAttempt(state);
   if (HasUnkeptAttempt(state))
     throw Error(Code::kFile,
                 "the last attempt is not kept yet, and a new one would take its place; make room "
                 "on the disk, then press Keep attempt");
   const Exercise exercise = *ChosenExercise(state);
-  StartPractice(state, [exercise](EditorState& now) {
+  StartPractice(state, [exercise, is_unscored](EditorState& now) {
     LessonsStep& step = *now.steps.lessons;
+    step.is_unscored = is_unscored;
     try {
       SetUp(now, exercise.setup);
       step.running.emplace(now.document(), exercise, *now.practice);
@@ -140,15 +150,42 @@ void BeginExercise(EditorState& state) {
       now.practice.reset();
       throw;
     }
+    ReadGhost(now);
     now.steps.practice->end_attempt = StopAttempt;
+    now.steps.practice->note_reset = [](EditorState& at, const std::string& what) {
+      Act(at, {.kind = simulation::ActKind::kReset, .answer = 0, .note = what});
+    };
     step.finished.reset();
     step.page = LessonPage::kAttempt;
+    step.note.clear();
+    if (is_unscored) {
+      step.records->attempt.reset();
+      now.message = "The attempt runs and is not scored. Esc ends it.";
+      return;
+    }
+    step.running->rig = RigWords(*now.steps.practice->hands);
     const std::string notice =
         BeginKeeping(*step.records, exercise, now.document(),
-                     step.is_test ? AttemptMode::kTest : AttemptMode::kPractice,
-                     RigWords(*now.steps.practice->hands));
+                     step.is_test ? AttemptMode::kTest : AttemptMode::kPractice, step.running->rig);
     now.message = notice.empty() ? "The attempt runs. Esc ends it." : notice;
   });
+}
+
+}  // namespace
+
+void BeginExercise(EditorState& state) { BeginAttempt(state, false); }
+void BeginUnscored(EditorState& state) { BeginAttempt(state, true); }
+
+void PauseAttempt(EditorState& state, bool is_paused) {
+  LessonsStep& step = *state.steps.lessons;
+  if (!step.running) return;
+  step.running->is_paused = is_paused;
+  step.running->live.watch().SetPaused(is_paused);
+}
+
+bool IsPaused(const EditorState& state) {
+  const LessonsStep& step = *state.steps.lessons;
+  return step.running.has_value() && step.running->is_paused;
 }
 
 void Act(EditorState& state, const simulation::TraineeAct& act) {

@@ -10,6 +10,10 @@ namespace arthro::app {
 bool MayBeginExercise(const EditorState& state);
 // Starts a practice in the exercise's state, with an attempt that begins with its first frame.
 void BeginExercise(EditorState& state);
+// The same without a score: any lens and instrument, no criteria, and nothing is kept.
+void BeginUnscored(EditorState& state);
+// Stops the time of the attempt that runs, or lets it go on. Frames of a pause count for nothing.
+void PauseAttempt(EditorState& state, bool is_paused);
 void Act(EditorState& state, const simulation::TraineeAct& act);
 // Ends the attempt as one that was stopped, and its practice.
 void StopAttempt(EditorState& state);

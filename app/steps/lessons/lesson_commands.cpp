@@ -1,4 +1,7 @@
 // Lessons: begin an exercise, act in its attempt, look back, and edit the exercises of the scene.
+#include <algorithm>
+#include <utility>
+
 #include <GLFW/glfw3.h>
 
 #include "app/state/edits.h"
@@ -19,12 +22,32 @@ bool RunsAttempt(const State& state) { return state.steps.lessons->running.has_v
 bool HasHint(const State& state) {
   if (!RunsAttempt(state)) return false;
   const simulation::StepEngine& engine = state.steps.lessons->running->engine;
-  const int step = engine.strip().step;
-  return step >= 0 &&
-         BaseOf(engine.exercise().steps[static_cast<std::size_t>(step)]).cue != CueKind::kNone;
+  return std::ranges::any_of(engine.strip().open, [&](const simulation::OpenStep& open) {
+    return BaseOf(engine.exercise().steps[static_cast<std::size_t>(open.step)]).cue !=
+           CueKind::kNone;
+  });
+}
+bool HasNote(const State& state) {
+  return RunsAttempt(state) && !state.steps.lessons->note.empty();
+}
+void KeepNote(State& state) {
+  Act(state, {ActKind::kNote, 0, std::exchange(state.steps.lessons->note, {})});
+  state.message = "The remark was noted in the attempt.";
+}
+void TogglePause(State& state) {
+  PauseAttempt(state, !IsPaused(state));
+  state.message =
+      IsPaused(state) ? "The attempt is paused: its time stands still." : "The attempt goes on.";
+}
+void Repeat(State& state) {
+  const auto& finished = state.steps.lessons->finished;
+  finished && finished->is_unscored ? BeginUnscored(state) : BeginExercise(state);
 }
 bool HasResult(const State& state) {
   return !state.practice && state.steps.lessons->finished.has_value();
+}
+bool HasReport(const State& state) {
+  return HasResult(state) && !IsBlinded(state) && !state.steps.lessons->finished->is_unscored;
 }
 bool ShowsWhose(const State& state) { return HasResult(state) && !IsBlinded(state); }
 bool HasFrames(const State& state) {
@@ -129,7 +152,16 @@ constexpr Command kLessonCommands[] = {
      {},
      {},
      MayBeginExercise,
-     BeginExercise,
+     Repeat,
+     "This exercise cannot be begun now."},
+    {"begin-unscored",
+     "Unscored",
+     "Try the exercise with any lens and instrument; nothing is scored or kept.",
+     "Lessons",
+     {},
+     {},
+     MayBeginExercise,
+     BeginUnscored,
      "This exercise cannot be begun now."},
     {"keep-attempt",
      "Keep attempt",
@@ -167,6 +199,24 @@ constexpr Command kLessonCommands[] = {
      RunsAttempt,
      Do<ActKind::kMark>,
      "No attempt is under way."},
+    {"attempt-pause",
+     "Pause",
+     "Stop the time of the attempt, or let it go on; nothing counts meanwhile.",
+     "Lessons",
+     {GLFW_KEY_I},
+     {},
+     RunsAttempt,
+     TogglePause,
+     "No attempt is under way."},
+    {"attempt-note",
+     "Note",
+     "Write the remark into the events of the attempt (for the instructor).",
+     "Lessons",
+     {},
+     {},
+     HasNote,
+     KeepNote,
+     "First type a remark."},
     {"attempt-look-down",
      "Looks down",
      "Note that the trainee looked at the hands (for the instructor).",
@@ -218,9 +268,9 @@ constexpr Command kLessonCommands[] = {
      "Lessons",
      {},
      {},
-     ShowsWhose,
+     HasReport,
      SaveReport,
-     "There is no attempt, or it is being rated blinded."},
+     "There is no scored attempt, or it is being rated blinded."},
     {"debrief-play",
      "Play",
      "Play or stop the look back.",

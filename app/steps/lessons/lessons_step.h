@@ -4,12 +4,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "app/report/attempt_report.h"
 #include "app/state/command.h"
 #include "app/state/owned.h"
 #include "simulation/scene/exercise/exercise.h"
@@ -33,7 +35,11 @@ struct FinishedAttempt {
   Exercise exercise;
   std::string trainee;  // code
   bool is_test = false, is_robot = false;
+  bool is_unscored = false;  // it counts for nothing, and is not kept
   simulation::AttemptResult result;
+  // Standing in a reference group of the same rig, and its name; empty: there is none.
+  std::vector<GroupStanding> standings;
+  std::string group;
   std::vector<simulation::AttemptFrame> frames;
   // Tissue of the frames; null: it was not recorded, or in another scene. Shared by copies of this,
   // since it only remembers what it has read.
@@ -46,6 +52,14 @@ struct FinishedAttempt {
   std::filesystem::path log;  // its file beside the records; empty: it was not kept
 };
 
+// A place that a tool touched, from `t` s on.
+enum class TouchGrade { kLight, kCare, kHarm };  // up to 3 N, up to the safe force, and over it
+struct TouchMark {
+  double t = 0;
+  glm::dvec3 place{0.0};
+  TouchGrade grade = TouchGrade::kLight;
+};
+
 // A position in the attempt that is looked back at, and the expert beside it.
 struct Debrief {
   double at = 0;  // s
@@ -53,12 +67,26 @@ struct Debrief {
   double speed = 1;
   std::shared_ptr<Expert> expert;  // null: none; shared, since its type is known elsewhere
   std::string expert_words;        // whose it is, or why there is none
+  std::vector<TouchMark> touches;
 };
 
 enum class LessonPage { kNone, kStart, kBriefing, kAttempt, kSummary, kDebrief, kInstructor };
 
+// Picture of an exercise, as it was read last.
+struct LessonPicture {
+  std::filesystem::path name;
+  int document = -1;  // EditorState::document_number
+  std::shared_ptr<const ColourImage> picture;
+  std::string fault;  // why it cannot be read; empty: it was
+};
+// Texture of a picture; 0: none.
+using LessonTexture = std::function<unsigned(const std::shared_ptr<const ColourImage>&)>;
+
 struct LessonsStep {
   bool is_test = false;
+  bool is_unscored = false;  // of the attempt that runs
+  std::string note;          // remark of the instructor that is typed
+  LessonPicture picture;
   int chosen = -1;  // exercise of the scene
   LessonPage page = LessonPage::kNone;
   Owned<LessonRecords> records;
@@ -89,9 +117,14 @@ void OpenBriefing(EditorState& state, const std::string& exercise, const std::st
 // The program ends: an attempt that runs is stopped and kept.
 void EndLessons(EditorState& state);
 
+// True while the attempt that runs is paused: its time stands still, and nothing counts.
+bool IsPaused(const EditorState& state);
+
 // Once per frame, after the practice has advanced: observes it and follows the steps. True when
 // something changed.
 bool FollowAttempt(EditorState& state);
+// Reads the expert whose way the attempt that runs shows, where a step has a ghost as its cue.
+void ReadGhost(EditorState& state);
 // Opens the look back, with an expert where there is one.
 void OpenDebrief(EditorState& state);
 // Makes the attempt that is shown the recording of an expert that the scene names.
@@ -111,6 +144,9 @@ const simulation::WorldPicture* ExpertTissues(const EditorState& state);
 std::vector<Ball> ShownLooseBodies(const EditorState& state);
 std::vector<Ball> ExpertLooseBodies(const EditorState& state);
 
+// Sets the standing of an attempt in the group that its criteria name, or in the first one; groups
+// of another rig are left out.
+void SetStanding(EditorState& state, const std::string& rig, FinishedAttempt& attempt);
 // Shows the result of an attempt in the records. Frames that cannot be read, and a scene that is
 // not the one it was made in, leave FinishedAttempt::notice. Throws Error where the records do not
 // have it.
@@ -141,11 +177,15 @@ bool ShowsRating(const EditorState& state);
 bool MayKeepRating(const EditorState& state);
 void KeepRating(EditorState& state);
 
-void ExercisesPanel(Ui& ui, EditorState& state);                     // the editor's step
-void CriteriaPanel(Ui& ui, EditorState& state);                      // part of it
-void TraineePage(Ui& ui, EditorState& state);                        // inside of the page below
-void InstructorPage(Ui& ui, EditorState& state);                     // the same
-void LessonPagePanel(Ui& ui, EditorState& state, const Area& area);  // instead of the practice's
+void ExercisesPanel(Ui& ui, EditorState& state);  // the editor's step
+void CriteriaPanel(Ui& ui, EditorState& state);   // part of it
+// Inside of the page below.
+void AttemptPage(Ui& ui, EditorState& state, const LessonTexture& texture_of);
+void BriefingPage(Ui& ui, EditorState& state, const LessonTexture& texture_of);
+void TraineePage(Ui& ui, EditorState& state);
+void InstructorPage(Ui& ui, EditorState& state);
+// In the place of the practice's panel while an attempt runs, else the whole page.
+void LessonPagePanel(Ui& ui, EditorState& state, const Area& area, const LessonTexture& texture_of);
 // The look back: beside the scope's picture, and in the place of the overview.
 void RatingFields(Ui& ui, EditorState& state);  // inside of the next one
 // Sentences about parts of the attempt that cannot be shown.

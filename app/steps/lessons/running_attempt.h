@@ -13,6 +13,8 @@
 
 namespace arthro::app {
 
+struct Expert;  // lookback/expert.h
+
 struct RunningAttempt {
   // `practice` has not advanced yet and outlives this.
   RunningAttempt(const LoadedScene& loaded, const Exercise& exercise,
@@ -22,8 +24,11 @@ struct RunningAttempt {
   simulation::StepEngine engine;
   std::vector<simulation::AttemptFrame> frames;
   std::vector<simulation::TraineeAct> acts;  // acts for the frame to come
+  bool is_paused = false;
+  std::string rig;  // words of the devices that hold the hands
   simulation::TrackRecorder recorder;
   std::vector<simulation::TrackPiece> track;  // pieces of the tissue
+  std::shared_ptr<Expert> expert;             // whose way a ghost shows; null: none
   // Events and pieces that were handed to the log.
   std::size_t kept_events = 0, kept_pieces = 0;
 };

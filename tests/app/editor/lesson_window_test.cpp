@@ -108,6 +108,50 @@ expect disabled "Begin"
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
+TEST_F(LessonWindow, AnAttemptIsPausedAndOffersTheLensesOfItsExercise) {
+  const auto result = test::RunWindow(Flags("--exercise periscope-70-90"), R"(
+wait frames 5
+expect "Scope: 70° or 90°"
+expect enabled "Unscored"
+click "Begin"
+wait job
+wait frames 20
+expect enabled "70°"
+expect enabled "90°"
+expect not "30°"
+click "Pause"
+wait frames 5
+expect "Time, paused"
+click "Pause"
+set "Remark" steady
+click "Note"
+wait frames 5
+expect not "Time, paused"
+click "End attempt"
+expect "Stopped"
+expect "Not measured"
+click "Look back"
+wait frames 5
+expect "Force on the tips, N: scope grey, instrument blue"
+)");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(LessonWindow, AFreeOrderShowsEveryStepThatIsLeft) {
+  const auto result = test::RunWindow(Flags("--exercise tour-12"), R"(
+wait frames 5
+click "Unscored"
+wait job
+wait frames 20
+expect "To do, in any order"
+expect "Show the femoral condyle."
+expect "Show the rim of the meniscus."
+click "End attempt"
+expect "Not scored"
+)");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
 TEST_F(LessonWindow, ClosingThePageEndsTheJob) {
   const auto result = test::RunWindow(Flags("--exercise telescope"), R"(
 wait frames 5

@@ -8,6 +8,8 @@
 #include "app/records/keeping/expert_attempt.h"
 #include "app/state/edits.h"
 #include "app/steps/lessons/keeping/lesson_records.h"
+#include "app/steps/lessons/lookback/touches.h"
+#include "app/steps/lessons/running_attempt.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/json/exercise_json.h"
@@ -57,10 +59,21 @@ std::shared_ptr<Expert> FindExpert(const EditorState& state, const Exercise& exe
   return nullptr;
 }
 
+void ReadGhost(EditorState& state) {
+  RunningAttempt& running = *state.steps.lessons->running;
+  const Exercise& exercise = running.engine.exercise();
+  const bool has_ghost = std::ranges::any_of(
+      exercise.steps, [](const ExerciseStep& step) { return BaseOf(step).cue == CueKind::kGhost; });
+  std::string words;  // without an expert the cue is an outline
+  if (has_ghost) running.expert = FindExpert(state, exercise, "", words);
+}
+
 void OpenDebrief(EditorState& state) {
   LessonsStep& step = *state.steps.lessons;
   step.page = LessonPage::kDebrief;
-  if (step.debrief.expert || !step.finished) return;
+  if (!step.finished) return;
+  step.debrief.touches = TouchesOf(step.finished->frames);
+  if (step.debrief.expert) return;
   step.debrief.expert =
       FindExpert(state, step.finished->exercise, step.finished->id, step.debrief.expert_words);
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/records/attempts/records_file.h"
+#include "app/records/people/reference_groups.h"
 #include "app/report/make_report.h"
 #include "app/state/capital.h"
 #include "app/steps/lessons/instructor/rating_board.h"
@@ -53,6 +54,29 @@ void TakeRecording(const EditorState& state, const Records& records, const Attem
 
 }  // namespace
 
+void SetStanding(EditorState& state, const std::string& rig, FinishedAttempt& attempt) {
+  LessonRecords& records = *state.steps.lessons->records;
+  if (!records.open) return;
+  try {
+    const auto groups = ReferenceGroupsAt(*records.open, HashOf(attempt.exercise),
+                                          simulation::kMetricsVersion, rig);
+    if (groups.empty()) return;
+    const ReferenceGroup* chosen = &groups.front();
+    for (const Criterion& criterion : attempt.exercise.criteria)
+      if (criterion.max_from)
+        if (const auto named =
+                std::ranges::find(groups, criterion.max_from->group, &ReferenceGroup::name);
+            named != groups.end())
+          chosen = &*named;
+    AttemptRecord record;
+    SetResult(record, attempt.result);
+    attempt.standings = StandingsIn(*records.open, *chosen, record);
+    attempt.group = chosen->name;
+  } catch (const Error& fault) {
+    records.fault = fault.what();
+  }
+}
+
 void ShowStoredAttempt(EditorState& state, const std::string& id) {
   LessonsStep& step = *state.steps.lessons;
   if (!ReachRecords(*step.records)) throw Error(Code::kFile, step.records->fault);
@@ -67,6 +91,7 @@ void ShowStoredAttempt(EditorState& state, const std::string& id) {
   AttemptRecord sorted = record;
   SortMetrics(sorted.metrics);
   shown.result = ResultOf(sorted);
+  SetStanding(state, bundle.sessions.at(0).rig, shown);
   TakeRecording(state, records, record, shown);
   shown.id = id;
   shown.log = records.folder() / record.log;
