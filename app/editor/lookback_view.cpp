@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/editor/marks/cue_marks.h"
 #include "app/steps/lessons/lessons_step.h"
 
 namespace arthro::app {
@@ -23,8 +24,9 @@ LookbackAreas LookbackAreasOf(const Layout& layout, bool has_expert, float scale
 void LookbackView(Ui& ui, EditorState& state, const Pictures& pictures, const Layout& layout) {
   const bool has_expert = ExpertFrame(state) != nullptr;
   const LookbackAreas areas = LookbackAreasOf(layout, has_expert, ui.scale);
-  LabelledPicture(ui, areas.own, pictures.scope_texture(), "Picture",
-                  has_expert ? "Own attempt" : "");
+  const Area own = LabelledPicture(ui, areas.own, pictures.scope_texture(), "Picture",
+                                   has_expert ? "Own attempt" : "");
+  MarkTouches(ui, state, "Picture", areas.own, own, pictures.view(), pictures.optics());
   if (has_expert)
     LabelledPicture(ui, areas.expert, pictures.expert_texture(), "Expert's picture",
                     state.steps.lessons->debrief.expert_words);

@@ -67,7 +67,7 @@ struct PictureInput {
 // The square picture of the scope, as large as the area lets it be.
 PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned texture);
 // A square picture of the scope that is only looked at, with words in its corner.
-void LabelledPicture(Ui& ui, const Area& area, unsigned texture, const std::string& name,
+Area LabelledPicture(Ui& ui, const Area& area, unsigned texture, const std::string& name,
                      const std::string& words);
 // Pixels a side that the scope's picture fills there.
 int ScopePictureSize(const Ui& ui, const EditorState& state, const Area& area);

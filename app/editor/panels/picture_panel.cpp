@@ -227,7 +227,7 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
   return input;
 }
 
-void LabelledPicture(Ui& ui, const Area& area, unsigned texture, const std::string& name,
+Area LabelledPicture(Ui& ui, const Area& area, unsigned texture, const std::string& name,
                      const std::string& words) {
   const FixedWindow window(ui, name.c_str(), area, kPictureWindow);
   const float edge = PictureEdge(ui, false, area);
@@ -239,7 +239,8 @@ void LabelledPicture(Ui& ui, const Area& area, unsigned texture, const std::stri
   ImGui::SetCursorScreenPos(low);
   ImGui::Dummy({edge, edge});
   RecordItem(ui, name, true, "", WidgetKind::kPicture);
-  if (words.empty()) return;
+  const Area square{low.x, low.y, edge, edge};
+  if (words.empty()) return square;
   // A shade keeps the words readable where they reach over the picture.
   const ImVec2 corner = {area.x + ui.Px(12), area.y + ui.Px(8)};
   const float width = ui.WidthOf(words), height = ImGui::GetTextLineHeight();
@@ -248,6 +249,7 @@ void LabelledPicture(Ui& ui, const Area& area, unsigned texture, const std::stri
                       ui.Px(3));
   ImGui::SetCursorScreenPos(corner);
   WordsOverPicture(ui, words);
+  return square;
 }
 
 OverviewInput OverviewPicture(Ui& ui, EditorState& state, const Area& area, unsigned texture,
@@ -314,7 +316,7 @@ bool ApplyHeldKeys(EditorState& state, bool picture_has_focus, double seconds) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput || io.KeyCtrl || io.KeyAlt) return false;
   const auto held = [&](int key) { return io.KeysDown[key]; };
-  if (state.practice) state.practice->Press(held(kActKey));
+  if (state.practice) state.practice->Press(held(kActKey) && !IsPaused(state));
   state.steps.practice->hands->HoldDeadMan(held(kDeadManKey));
   const bool is_turned = TurnHead(state, HeadTurnOfKeys(seconds, held));
   return MoveHands(state, MotionOfKeys(false, picture_has_focus, seconds, held),

@@ -1,4 +1,4 @@
-// The look back at an attempt: steps and events beside the picture, force, centring and path over
+// The look back at an attempt: events beside the picture; steps, force, centring and path over
 // time. A click into a figure or on an event goes there.
 #include <algorithm>
 #include <array>
@@ -15,6 +15,7 @@
 #include "simulation/core/units.h"
 #include "simulation/device/device_sample.h"
 #include "simulation/training/steps/exercise_index.h"
+#include "simulation/training/steps/same_moment.h"
 #include "simulation/training/steps/step_words.h"
 
 namespace arthro::app {
@@ -44,8 +45,9 @@ PlotCurve CurveOf(const std::vector<AttemptFrame>& frames, const ValueOf& value_
   return curve;
 }
 
-const simulation::ToolFrame& Instrument(const AttemptFrame& frame) {
-  return frame.tool[static_cast<std::size_t>(DeviceRole::kInstrument)];
+float PeakForce(const AttemptFrame& frame, DeviceRole role) {
+  const simulation::ToolFrame& tool = frame.tool[static_cast<std::size_t>(role)];
+  return tool.is_valid ? tool.peak_force : kNoValue;
 }
 
 Plot OverTime(const FinishedAttempt& attempt, const Debrief& debrief, const char* title) {
@@ -61,9 +63,12 @@ Plot OverTime(const FinishedAttempt& attempt, const Debrief& debrief, const char
 }
 
 Plot ForcePlot(const FinishedAttempt& attempt, const Debrief& debrief) {
-  Plot plot = OverTime(attempt, debrief, "Force on the instrument's tip, N");
-  plot.curves.push_back(
-      CurveOf(attempt.frames, [](const AttemptFrame& f) { return Instrument(f).peak_force; }));
+  Plot plot = OverTime(attempt, debrief, "Force on the tips, N: scope grey, instrument blue");
+  for (const DeviceRole role : {DeviceRole::kScope, DeviceRole::kInstrument}) {
+    plot.curves.push_back(
+        CurveOf(attempt.frames, [&](const AttemptFrame& frame) { return PeakForce(frame, role); }));
+    plot.curves.back().colour = role == DeviceRole::kScope ? kQuiet : kAccent;
+  }
   for (const Criterion& criterion : attempt.exercise.criteria)
     if (criterion.metric == "peak_force" && criterion.max) plot.limits.push_back(*criterion.max);
   FitAxes(plot);
@@ -125,6 +130,54 @@ std::array<Area, 3> PlotAreas(const Area& area, float gap) {
                 rows * height};
   };
   return {at(0, 1), at(1, 1), at(2, 2)};
+}
+
+// Steps as blocks over the time of the attempt, each with its number, and green or red at its end;
+// a click goes to its begin. Steps of a free order stand one after the other as they were done.
+void StepBar(Ui& ui, const FinishedAttempt& attempt, Debrief& debrief, const Area& area) {
+  const double whole =
+      std::max(0.01, simulation::kFrameTime * static_cast<double>(attempt.frames.size()));
+  const auto at = [&](double t) {
+    return area.x + area.width * static_cast<float>(std::clamp(t / whole, 0.0, 1.0));
+  };
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height},
+                      ImGui::GetColorU32(ImGuiCol_FrameBg), ui.Px(4));
+  const auto& steps = attempt.result.steps;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const simulation::StepResult& step = steps[i];
+    if (step.outcome == simulation::StepOutcome::kPending) continue;
+    const bool is_done = step.outcome == simulation::StepOutcome::kDone,
+               is_failed = step.outcome == simulation::StepOutcome::kFailed;
+    // A step of a free order that was never done would lie under all the others.
+    if (!is_done && attempt.exercise.order == StepOrder::kFree) continue;
+    const simulation::StepTime time = simulation::TimeOf(steps, step);
+    const float left = at(time.begin), right = at(step.ended ? time.end : whole);
+    const unsigned colour = is_done ? kGood : is_failed ? kBad : kQuiet;
+    draw->AddRectFilled({left + 1, area.y + 1},
+                        {std::max(right, left + ui.Px(3)) - 1, area.y + area.height - 1},
+                        (colour & 0x00FFFFFF) | 0x60000000, ui.Px(3));
+    const std::string words = is_failed ? fmt::format("{} ×", i + 1) : fmt::format("{}", i + 1);
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    if (size.x + ui.Px(4) <= right - left)
+      draw->AddText({0.5F * (left + right - size.x), area.y + 0.5F * (area.height - size.y)},
+                    OnGround(kBright), words.c_str());
+    ImGui::SetCursorScreenPos({left, area.y});
+    if (HitArea(fmt::format("step {}", i + 1).c_str(),
+                {std::max(right - left, ui.Px(3)), area.height}))
+      debrief.at = time.begin, debrief.plays = false;
+    RecordItem(ui, fmt::format("Step {}", i + 1));
+    if (ImGui::IsItemHovered()) {
+      const int index = simulation::StepIndex(attempt.exercise, step.id);
+      if (index >= 0)
+        Tooltip(
+            ui,
+            simulation::StepTitle(attempt.exercise.steps[static_cast<std::size_t>(index)]).c_str());
+    }
+  }
+  const float now = at(debrief.at);
+  draw->AddLine({now, area.y - ui.Px(2)}, {now, area.y + area.height + ui.Px(2)}, OnGround(kBright),
+                ui.Px(2));
 }
 
 bool IsOfStep(EventKind kind) {
@@ -200,7 +253,10 @@ void DebriefPlots(Ui& ui, EditorState& state, const Area& area) {
   const FixedWindow window(ui, "debrief plots", area, kPictureWindow);
   LessonsStep& step = *state.steps.lessons;
   const FinishedAttempt& attempt = *step.finished;
-  const std::array<Area, 3> areas = PlotAreas(area, ui.Px(8));
+  const float bar = ui.Px(26), gap = ui.Px(8);
+  StepBar(ui, attempt, step.debrief, {area.x + gap, area.y + gap, area.width - 2 * gap, bar});
+  const std::array<Area, 3> areas =
+      PlotAreas({area.x, area.y + bar + gap, area.width, area.height - bar - gap}, gap);
   for (const auto& picked : {DrawPlot(ui, ForcePlot(attempt, step.debrief), areas[0]),
                              DrawPlot(ui, CentrePlot(attempt, step.debrief), areas[1])})
     if (picked) step.debrief.at = *picked, step.debrief.plays = false;
