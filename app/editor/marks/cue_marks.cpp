@@ -11,6 +11,7 @@
 #include "app/platform/theme.h"
 #include "app/steps/lessons/cues/shown_cues.h"
 #include "app/steps/lessons/lessons_step.h"
+#include "app/steps/practice/practice_step.h"
 
 namespace arthro::app {
 namespace {
