@@ -105,6 +105,29 @@ class ExerciseCheck {
   std::map<double, PoseSearch> searches_;
 };
 
+// Adds the unseen targets of one exercise, each once.
+void LookAt(const LoadedScene& loaded, const Exercise& exercise, const DepthField& relief,
+            const ScopeEye& eye, const Progress& progress, std::vector<UnseenTarget>& unseen) {
+  ExerciseCheck check(loaded, exercise, relief, eye);
+  for (std::size_t i = 0; i < exercise.steps.size(); ++i) {
+    const ExerciseStep& step = exercise.steps[i];
+    const std::vector<double> angles = AnglesOf(loaded, exercise, step);
+    const LookLimits limits = std::visit(LimitsOfStep{}, step);
+    for (const int target : TargetsOf(exercise, step)) {
+      progress.Step("Looking for poses",
+                    static_cast<double>(i) / static_cast<double>(exercise.steps.size()));
+      const std::string& id = exercise.targets[static_cast<std::size_t>(target)].id;
+      const bool is_named = std::ranges::any_of(unseen, [&](const UnseenTarget& each) {
+        return each.exercise == exercise.id && each.target == id;
+      });
+      if (is_named || std::ranges::any_of(
+                          angles, [&](double angle) { return check.Sees(target, angle, limits); }))
+        continue;
+      unseen.push_back({exercise.id, id, angles});
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<UnseenTarget> UnseenTargets(const LoadedScene& loaded) {
@@ -114,34 +137,30 @@ std::vector<UnseenTarget> UnseenTargets(const LoadedScene& loaded) {
     return unseen;
   const DepthField relief = ReliefOf(loaded);
   const ScopeEye eye(loaded);
-  for (const Exercise& exercise : loaded.scene.exercises) {
-    if (exercise.steps.empty()) continue;
-    ExerciseCheck check(loaded, exercise, relief, eye);
-    for (const ExerciseStep& step : exercise.steps) {
-      const std::vector<double> angles = AnglesOf(loaded, exercise, step);
-      const LookLimits limits = std::visit(LimitsOfStep{}, step);
-      for (const int target : TargetsOf(exercise, step)) {
-        const std::string& id = exercise.targets[static_cast<std::size_t>(target)].id;
-        const bool is_named = std::ranges::any_of(unseen, [&](const UnseenTarget& each) {
-          return each.exercise == exercise.id && each.target == id;
-        });
-        if (is_named || std::ranges::any_of(angles, [&](double angle) {
-              return check.Sees(target, angle, limits);
-            }))
-          continue;
-        unseen.push_back({exercise.id, id, angles});
-      }
-    }
-  }
+  for (const Exercise& exercise : loaded.scene.exercises)
+    if (!exercise.steps.empty()) LookAt(loaded, exercise, relief, eye, {}, unseen);
   return unseen;
 }
 
-std::string ToString(const UnseenTarget& unseen) {
+std::vector<UnseenTarget> UnseenTargets(const LoadedScene& loaded, const Exercise& exercise,
+                                        const Progress& progress) {
+  std::vector<UnseenTarget> unseen;
+  const DepthField relief = ReliefOf(loaded);
+  const ScopeEye eye(loaded);
+  LookAt(loaded, exercise, relief, eye, progress, unseen);
+  return unseen;
+}
+
+std::string AnglesOf(const UnseenTarget& unseen) {
   std::string angles;
   for (const double angle : unseen.view_angles)
     angles += fmt::format("{}{:g}°", angles.empty() ? "" : " or ", DegreesFromRadians(angle));
+  return angles;
+}
+
+std::string ToString(const UnseenTarget& unseen) {
   return fmt::format("exercise \"{}\": no pose sees target \"{}\" with a {} scope", unseen.exercise,
-                     unseen.target, angles);
+                     unseen.target, AnglesOf(unseen));
 }
 
 }  // namespace arthro::simulation

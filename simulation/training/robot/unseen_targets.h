@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/core/progress.h"
 #include "simulation/scene/exercise/exercise.h"
 #include "simulation/scene/files/loaded_scene.h"
 
@@ -20,6 +21,10 @@ struct UnseenTarget {
 // Targets of all exercises, each named once per exercise. Throws Error for a target that lies on
 // nothing and for cuts that cannot be made.
 std::vector<UnseenTarget> UnseenTargets(const LoadedScene& loaded);
+// Those of one exercise, whether or not the scene has it. Throws Error(kCancelled) when stopped.
+std::vector<UnseenTarget> UnseenTargets(const LoadedScene& loaded, const Exercise& exercise,
+                                        const Progress& progress);
+std::string AnglesOf(const UnseenTarget& unseen);  // "30° or 70°"
 std::string ToString(const UnseenTarget& unseen);  // one sentence for the author
 
 }  // namespace arthro::simulation

@@ -1,5 +1,6 @@
 #include "simulation/training/robot/unseen_targets.h"
 
+#include <atomic>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -74,6 +75,17 @@ TEST(UnseenTargets, NamesAllViewAnglesOfTheExercise) {
   ASSERT_EQ(unseen.size(), 1u);
   EXPECT_EQ(ToString(unseen[0]),
             "exercise \"look\": no pose sees target \"spot\" with a 30° or 70° scope");
+}
+
+TEST(UnseenTargets, OfOneExerciseAreThoseOfTheSceneAndTheSearchCanBeStopped) {
+  const LoadedScene loaded = SphereWithBall(OnBall(kUnseenRadius), StepAt<ProbeStep>("spot"));
+  const Exercise& exercise = loaded.scene.exercises.front();
+  const auto unseen = UnseenTargets(loaded, exercise, {});
+  EXPECT_EQ(unseen, UnseenTargets(loaded));
+  ASSERT_EQ(unseen.size(), 1u);
+  EXPECT_EQ(AnglesOf(unseen[0]), "30°");
+  const std::atomic<bool> stop = true;
+  EXPECT_THROW(UnseenTargets(loaded, exercise, {{}, &stop}), Error);
 }
 
 TEST(UnseenTargets, EveryTargetOfTheDemoIsSeen) {
