@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "app/editor/marks/cue_marks.h"
-#include "app/steps/lessons/exercise_edit.h"
+#include "app/steps/lessons/author/target_edit.h"
 #include "app/steps/lessons/lessons_step.h"
 #include "simulation/core/error.h"
 #include "simulation/training/observe/exercise_targets.h"

@@ -10,7 +10,7 @@
 
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
-#include "app/steps/lessons/exercise_edit.h"
+#include "app/steps/lessons/author/target_edit.h"
 #include "app/steps/lessons/lessons_step.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/solids/solid_edit.h"

@@ -318,6 +318,15 @@ constexpr Command kLessonCommands[] = {
      HasExercise,
      RemoveExercise,
      "First choose an exercise."},
+    {"check-targets",
+     "Check that targets can be seen",
+     "Look for a pose of the scope that sees each target of the steps.",
+     "Lessons",
+     {},
+     {},
+     MayCheckTargets,
+     CheckTargets,
+     "First add a step, and wait until no other work is under way."},
 };
 
 }  // namespace

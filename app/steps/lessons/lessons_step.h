@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,6 +16,7 @@
 #include "app/state/command.h"
 #include "app/state/owned.h"
 #include "simulation/scene/exercise/exercise.h"
+#include "simulation/scene/scene.h"
 #include "simulation/training/attempt_result.h"
 #include "simulation/training/observe/attempt_frame.h"
 #include "simulation/training/track/tissue_track.h"
@@ -70,6 +72,13 @@ struct Debrief {
   std::vector<TouchMark> touches;
 };
 
+// Targets of an exercise that no pose of the scope sees, in a scene with these tissues.
+struct PoseCheck {
+  Exercise exercise;
+  std::vector<Tissue> tissues;
+  std::vector<std::string> sentences;  // one per target; empty: each is seen
+};
+
 enum class LessonPage { kNone, kStart, kBriefing, kAttempt, kSummary, kDebrief, kInstructor };
 
 // Picture of an exercise, as it was read last.
@@ -97,8 +106,11 @@ struct LessonsStep {
   std::optional<FinishedAttempt> finished;
   Debrief debrief;
   // Author's part: what is selected in the lists of the exercise that is edited.
-  int target = -1, step = -1, criterion = -1;
+  int target = -1, step = -1, criterion = -1, zone = -1;
   bool takes_target = false;  // a click in the picture sets the place of the chosen target
+  std::optional<PoseCheck> pose_check;
+  std::string drag_key;                        // merge key of the last edit, while it is dragged
+  std::map<std::string, int> newest_versions;  // of exercises that were edited, by their ids
 };
 
 // The chosen exercise; null: none.
@@ -177,8 +189,14 @@ bool ShowsRating(const EditorState& state);
 bool MayKeepRating(const EditorState& state);
 void KeepRating(EditorState& state);
 
+// ---- Author (author/). ----
+// Looks for poses that see the targets of the chosen exercise, beside the window.
+bool MayCheckTargets(const EditorState& state);
+void CheckTargets(EditorState& state);
+// Result for the chosen exercise; null: none, or the exercise has changed since.
+const PoseCheck* PoseCheckOf(const EditorState& state);
+
 void ExercisesPanel(Ui& ui, EditorState& state);  // the editor's step
-void CriteriaPanel(Ui& ui, EditorState& state);   // part of it
 // Inside of the page below.
 void AttemptPage(Ui& ui, EditorState& state, const LessonTexture& texture_of);
 void BriefingPage(Ui& ui, EditorState& state, const LessonTexture& texture_of);

@@ -9,7 +9,8 @@
 #include <imgui.h>
 
 #include "app/panels/options_panel.h"
-#include "app/steps/lessons/exercise_edit.h"
+#include "app/state/edits.h"
+#include "app/steps/lessons/author/author_fields.h"
 #include "app/steps/lessons/value_words.h"
 #include "simulation/training/metrics/metric_words.h"
 #include "simulation/training/metrics/metrics.h"
@@ -48,31 +49,53 @@ bool PartField(Ui& ui, Criterion& criterion) {
   return true;
 }
 
-bool LimitField(Ui& ui, const std::string& metric, const char* name, std::optional<double>& limit) {
-  if (!limit) return false;
+Change LimitField(Ui& ui, const std::string& metric, const char* name,
+                  std::optional<double>& limit) {
+  if (!limit) return {};
   const std::string unit = ShownUnitOfMetric(metric);
   const double factor = ShownValueOfMetric(metric, 1);
   double shown = *limit * factor;
   QuietText(ui, name);
   ImGui::SetNextItemWidth(-FLT_MIN);
-  if (!NumberField(ui, name, shown, 0.1, -1e9, 1e9,
-                   unit.empty() ? "%.6g" : ("%.6g " + unit).c_str()))
-    return false;
-  limit = shown / factor;
-  return true;
+  const Change change = NumberField(ui, name, shown, 0.1, -1e9, 1e9,
+                                    unit.empty() ? "%.6g" : ("%.6g " + unit).c_str());
+  if (change) limit = shown / factor;
+  return change;
 }
 
-bool LimitFields(Ui& ui, Criterion& criterion) {
+void LimitFields(Ui& ui, EditedExercise& edited, Criterion& criterion) {
   int kind = criterion.min && criterion.max ? 2 : criterion.min ? 1 : 0;
-  bool is_changed = Combo(ui, "Limit", kind, {"at most", "at least", "between"});
-  if (is_changed) {
+  if (Combo(ui, "Limit", kind, {"at most", "at least", "between"})) {
     const double value = criterion.max.value_or(criterion.min.value_or(0));
     criterion.max = kind == 1 ? std::optional<double>() : value;
     criterion.min =
         kind == 0 ? std::optional<double>() : criterion.min.value_or(kind == 2 ? 0 : value);
+    if (!criterion.max) criterion.max_from.reset();
+    edited.Note(true, "Limit of the criterion");
   }
-  is_changed = LimitField(ui, criterion.metric, "At least", criterion.min) || is_changed;
-  return LimitField(ui, criterion.metric, "At most", criterion.max) || is_changed;
+  edited.Note(LimitField(ui, criterion.metric, "At least", criterion.min), "Criterion");
+  edited.Note(LimitField(ui, criterion.metric, "At most", criterion.max), "Criterion");
+}
+
+// A reference group, whose results set the upper limit once it is large enough.
+void GroupFields(Ui& ui, EditedExercise& edited, Criterion& criterion) {
+  if (!criterion.max) return;
+  std::string group = criterion.max_from ? criterion.max_from->group : "";
+  if (TextField(ui, "Limit from the group", group, "none; for example: experts")) {
+    if (group.empty())
+      criterion.max_from.reset();
+    else if (criterion.max_from)
+      criterion.max_from->group = group;
+    else
+      criterion.max_from = GroupLimit{group};
+    edited.Note(true, "Group of the criterion");
+  }
+  if (!criterion.max_from) return;
+  QuietText(ui,
+            "Its mean and so many standard deviations; until it has five results, the limit "
+            "above.");
+  edited.Note(Slider(ui, "Standard deviations", criterion.max_from->plus_sd, -3, 3, "%.1f"),
+              "Group of the criterion");
 }
 
 }  // namespace
@@ -91,15 +114,15 @@ void CriteriaPanel(Ui& ui, EditorState& state) {
   const Exercise& now = *ChosenExercise(state);
   if (step.criterion < 0 || step.criterion >= static_cast<int>(now.criteria.size())) return;
   const auto chosen = static_cast<std::size_t>(step.criterion);
-  Criterion changed = now.criteria[chosen];
-  bool is_changed = MetricField(ui, changed);
-  is_changed = PartField(ui, changed) || is_changed;
-  is_changed = LimitFields(ui, changed) || is_changed;
-  is_changed =
-      TextField(ui, "Source of the limit", changed.source, "publication or person") || is_changed;
-  if (is_changed)
-    EditExercise(state, "Criterion", "criterion",
-                 [&](Exercise& e) { e.criteria[chosen] = changed; });
+  EditedExercise edited(state);
+  Criterion& changed = edited.changed.criteria[chosen];
+  edited.Note(MetricField(ui, changed), "Metric of the criterion");
+  edited.Note(PartField(ui, changed), "Tool of the criterion");
+  LimitFields(ui, edited, changed);
+  GroupFields(ui, edited, changed);
+  edited.Note(TextField(ui, "Source of the limit", changed.source, "publication or person"),
+              "Source of the limit");
+  edited.Apply();
   if (Button(ui, "Remove criterion", true, {-FLT_MIN, 0})) {
     EditExercise(state, "Remove criterion", "", [&](Exercise& e) {
       e.criteria.erase(e.criteria.begin() + static_cast<std::ptrdiff_t>(chosen));
