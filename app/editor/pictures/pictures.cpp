@@ -477,6 +477,12 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input, do
     EndStroke(state);
     is_painting_ = false;
   }
+  if (input.clicked && TakesTarget(state)) {
+    const auto place = overview_.PickTissue(event.x, event.y);
+    const Overview::Line line = overview_.LineThrough(event.x, event.y);
+    PlaceTarget(state, {line.eye, line.direction, line.px_per_radian},
+                place ? std::optional(TissueHit{place->tissue, place->x_in_tissue}) : std::nullopt);
+  }
   if (input.clicked && PlacesLandmarks(state)) {
     const auto place = overview_.PickTissue(event.x, event.y);
     // A model point that waits for its partner is followed by a click on the relief.

@@ -2,6 +2,7 @@
 // and the look back, later as well; the steps that an author makes.
 #include <gtest/gtest.h>
 
+#include "simulation/scene/files/scene_io.h"
 #include "tests/support/run_window.h"
 
 namespace arthro {
@@ -96,6 +97,88 @@ expect "Saved in"
 )");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(std::filesystem::exists(saved / "scene.json"));
+}
+
+// The kinds of steps, as the page names them. Hold comes first: later its entry has the name of a
+// slider of other kinds.
+constexpr const char* kStepKinds[] = {"Hold",   "See",     "Telescope", "Periscope",
+                                      "Track",  "Probe",   "Follow",    "Measure",
+                                      "Resect", "Recover", "Transfer",  "Answer"};
+
+TEST_F(LessonWindow, AuthorsAnExerciseWithEveryKindOfStepAndTarget) {
+  const std::filesystem::path saved = folder / "knee";
+  std::string script = R"(
+click Exercises
+click "New exercise"
+click "Add a target by a click"
+click Picture 0 0
+click "Add a target by a click"
+click Overview 0 0
+expect "The target lies on"
+click "Add a target by a click"
+click Picture 30 20
+click "A loose body"
+click "Add a target by a click"
+click Picture -30 20
+click "Kind of target"
+click "Ball in space"
+expect value "Kind of target" "Ball in space"
+click "Add a target by a click"
+click Picture 0 0
+click "Kind of target"
+click "Regions of a tissue"
+)";
+  for (const char* kind : kStepKinds)
+    script += std::string("click \"Add a step\"\nclick ") + kind + "\n";
+  script += R"(
+set "Question" "What is it?"
+set "Answer 2" "A meniscus"
+click "Right answer"
+click "2. A meniscus"
+click "More of this step"
+click "May fail"
+expect not "this kind of step needs"
+do save-as )" +
+            saved.string() + R"(
+wait job
+expect "Saved in"
+)";
+  const auto result = test::RunWindow("edit " ARTHRO_SOURCE_DIR "/resources/demo", script);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const Scene scene = ReadScene(saved);
+  const Exercise& exercise = scene.exercises.back();
+  EXPECT_EQ(exercise.steps.size(), std::size(kStepKinds));
+  EXPECT_TRUE(exercise.targets[2].is_loose);
+  EXPECT_TRUE(exercise.targets[3].ball);
+  EXPECT_FALSE(exercise.targets[4].regions.empty());
+  const auto& answer = std::get<AnswerStep>(exercise.steps.back());
+  EXPECT_EQ(answer.question, "What is it?");
+  EXPECT_EQ(answer.right, 1);
+  EXPECT_TRUE(answer.is_optional);
+  const auto check = test::RunProgram("check " + saved.string());
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+}
+
+TEST_F(LessonWindow, TheCheckOfPosesRunsBesideTheWindow) {
+  const auto result = test::RunWindow("edit " ARTHRO_SOURCE_DIR "/resources/demo", R"(
+click Exercises
+click "New exercise"
+expect disabled "Check that targets can be seen"
+click "Add a target by a click"
+click Picture 0 0
+click "Add a step"
+click See
+click "Check that targets can be seen"
+wait job
+expect "Some pose sees each target of the steps."
+click "Kind of target"
+click "Ball in space"
+set In -50
+click "Check that targets can be seen"
+wait job
+expect "No pose sees \"target-1\" with 30°."
+)");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
 TEST_F(LessonWindow, SaysWhyAnExerciseIsShut) {
