@@ -144,7 +144,7 @@ TEST(Documents, NamedPathsExist) {
   }
 }
 
-// safety.md names the test of each limit as `Suite.Name`.
+// safety.md names the test of each limit as `Suite.Name`, and links the file that holds it.
 TEST(Documents, TestsThatTheSafetyPageNamesExist) {
   std::string sources;
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests"))
@@ -157,6 +157,15 @@ TEST(Documents, TestsThatTheSafetyPageNamesExist) {
     const std::string test = "(" + (*found)[1].str() + ", " + (*found)[2].str() + ")";
     EXPECT_NE(sources.find(test), std::string::npos) << "safety.md names " << found->str();
   }
+  const std::regex linked(R"(\[`(\w+)\.(\w+)`\]\(\.\./\.\./([^)]+)\))");
+  int links = 0;
+  for (std::sregex_iterator found(page.begin(), page.end(), linked), end; found != end;
+       ++found, ++links)
+    EXPECT_NE(TextOf(kRoot / (*found)[3].str())
+                  .find("(" + (*found)[1].str() + ", " + (*found)[2].str() + ")"),
+              std::string::npos)
+        << (*found)[3] << " does not hold " << (*found)[1] << "." << (*found)[2];
+  EXPECT_EQ(links, count) << "a test of safety.md has no link to its file";
   EXPECT_GT(count, 25) << "the scan found too few names to mean anything";
 }
 
