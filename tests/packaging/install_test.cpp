@@ -3,11 +3,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <string>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
+#include "tests/documents/source_text.h"
 #include "tests/support/build_paths.h"
 #include "tests/support/temp_folder.h"
 
@@ -54,6 +57,10 @@ TEST_F(Install, HoldsProgramResourcesDocumentsLicenceAndDeviceRule) {
                            "share/mime/packages/arthroscene.xml",
                            "share/icons/hicolor/scalable/apps/arthroscene.svg",
                            "lib/udev/rules.d/70-arthroscene.rules",
+                           "share/arthroscene/batch/Snakefile",
+                           "share/arthroscene/batch/sweep.smk",
+                           "share/arthroscene/batch/slurm/config.yaml",
+                           "share/arthroscene/lab-records",
                            "share/arthroscene/demo/scene.json",
                            "share/arthroscene/presets/lenses",
                            "share/arthroscene/presets/rigs",
@@ -72,6 +79,43 @@ TEST_F(Install, HoldsProgramResourcesDocumentsLicenceAndDeviceRule) {
     EXPECT_TRUE(fs::exists(usr_ / "share/doc/arthroscene" /
                            entry.path().lexically_relative(ARTHRO_SOURCE_DIR)))
         << entry.path();
+}
+
+// Places below /usr that the documents name, with or without a mark behind them.
+TEST_F(Install, HoldsEveryPlaceThatTheDocumentsName) {
+  static const std::regex place(R"(/usr/share/arthroscene[A-Za-z0-9_./-]*[A-Za-z0-9_-])");
+  std::size_t count = 0;
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(ARTHRO_SOURCE_DIR) / "resources/doc")) {
+    if (entry.path().extension() != ".md") continue;
+    const std::string text = TextOf(entry.path());
+    for (std::sregex_iterator found(text.begin(), text.end(), place), none; found != none;
+         ++found, ++count)
+      EXPECT_TRUE(fs::exists(root_ / found->str().substr(1)))
+          << entry.path().filename() << ": " << found->str();
+  }
+  EXPECT_GE(count, 3u);
+}
+
+TEST_F(Install, ScriptsAreExecutable) {
+  for (const char* file : {"lab-records", "batch/slurm/state"})
+    EXPECT_EQ(::access((usr_ / "share/arthroscene" / file).c_str(), X_OK), 0) << file;
+}
+
+// `cpack -G TGZ`: one archive for systems without Debian packages.
+TEST(InstallArchive, UnpacksToAProgramThatFindsItsFiles) {
+  const TempFolder folder;
+  const std::string out = folder.path().string();
+  const Output packed = RunLine(
+      "cd " ARTHRO_BUILD_DIR " && " ARTHRO_CPACK " -G TGZ -D CPACK_STRIP_FILES=OFF -B " + out);
+  ASSERT_EQ(packed.exit_code, 0) << packed.text;
+  ASSERT_EQ(RunLine("cd " + out + " && tar -xzf arthroscene-*.tar.gz && mv arthroscene-*/ prefix")
+                .exit_code,
+            0);
+  EXPECT_TRUE(fs::exists(folder / "prefix/lib/udev/rules.d/70-arthroscene.rules"));
+  EXPECT_EQ(RunLine(out + "/prefix/bin/arthroscene check " + out + "/prefix/share/arthroscene/demo")
+                .exit_code,
+            0);
 }
 
 TEST_F(Install, ProgramReadsTheInstalledResources) {
