@@ -38,7 +38,10 @@ std::vector<const CLI::Option*> ShownOptions(const CLI::App& app) {
   return app.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
 }
 
-std::vector<const CLI::App*> Jobs(const CLI::App& program) { return program.get_subcommands({}); }
+// Leaves out hidden jobs, which the program starts itself.
+std::vector<const CLI::App*> Jobs(const CLI::App& program) {
+  return program.get_subcommands([](const CLI::App* job) { return !job->get_group().empty(); });
+}
 
 // Names and value: "-o, --output FILE".
 std::string NamesOf(const CLI::Option& option) {
