@@ -2,6 +2,7 @@
 // show them. The build writes the table (CMakeLists.txt).
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -18,7 +19,8 @@ struct BuiltWith {
 std::span<const BuiltWith> Libraries();
 const char* Version();      // "0.1.0"
 std::string ShortCommit();  // 12 digits; empty: built without git and without its archive
-// Version, commit, licence and a line per library.
-std::string LongVersion();
+// Version, commit, licence, a line per library, and the file with the texts of their licences;
+// empty: it is missing.
+std::string LongVersion(const std::filesystem::path& licence_texts);
 
 }  // namespace arthro::app

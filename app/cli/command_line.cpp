@@ -8,6 +8,7 @@
 #include "app/about/about.h"
 #include "app/cli/jobs.h"
 #include "app/cli/run_jobs.h"
+#include "app/help/help_pages.h"
 
 namespace arthro::app {
 
@@ -17,7 +18,7 @@ void DescribeProgram(CLI::App& program) {
   program.set_version_flag(
       "--version",
       [&program] {
-        return program.count("--long") > 0 ? LongVersion()
+        return program.count("--long") > 0 ? LongVersion(LicenceTexts())
                                            : fmt::format("arthroscene {}", Version());
       },
       "Version of the program.");

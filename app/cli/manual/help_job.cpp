@@ -35,6 +35,11 @@ void AddHelpJob(CLI::App& program) {
     if (page->empty()) return PrintContents();
     const std::string text = HelpText(*page);
     std::fwrite(text.data(), 1, text.size(), stdout);
+    std::string linked;
+    for (const std::string& name : PagesLinkedFrom(*page, text))
+      linked += (linked.empty() ? "" : ", ") + name;
+    if (!linked.empty())
+      std::printf("\nPages that it links, for `arthroscene help`: %s\n", linked.c_str());
   });
 }
 

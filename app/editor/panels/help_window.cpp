@@ -1,6 +1,8 @@
 // The manual's pages, all keys and mouse actions, and what the program is.
+#include <algorithm>
 #include <cstddef>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -17,7 +19,7 @@
 namespace arthro::app {
 namespace {
 
-void AboutSection(Ui& ui) {
+void AboutSection(Ui& ui, EditorState& state) {
   if (!Section(ui, "About this program")) return;
   Text(ui, fmt::format("Arthroscene {}", Version()));
   if (const std::string commit = ShortCommit(); !commit.empty())
@@ -36,7 +38,10 @@ void AboutSection(Ui& ui) {
     }
   }
   ImGui::EndTable();
-  QuietText(ui, "The texts of the licences are in share/arthroscene/built-with.txt.");
+  Gap(ui);
+  if (Button(ui, "Show the texts of the licences", true, {0, 0},
+             "Show the licence of each library, as its Debian package states it."))
+    OpenHelp(state, kLicencesPage);
 }
 
 void KeyTables(Ui& ui, const EditorState& state) {
@@ -76,7 +81,10 @@ void PageBar(Ui& ui, EditorState& state, const HelpDialog& dialog) {
 }  // namespace
 
 void HelpWindow(Ui& ui, EditorState& state, const HelpDialog& dialog) {
-  const HelpDialog shown = dialog;  // another page takes its place while the bar is drawn
+  HelpDialog shown = dialog;  // another page takes its place while the bar is drawn
+  const std::size_t mark = std::min(shown.page.find('#'), shown.page.size());
+  const std::string anchor = shown.page.substr(std::min(mark + 1, shown.page.size()));
+  shown.page.erase(mark);
   PageBar(ui, state, shown);
   if (!shown.problem.empty()) ColouredText(ui, shown.problem, kWarning);
   const float foot = ImGui::GetFrameHeightWithSpacing() + ui.Px(6);
@@ -84,9 +92,17 @@ void HelpWindow(Ui& ui, EditorState& state, const HelpDialog& dialog) {
   if (shown.page == kKeysPage) {
     Heading(ui, "Keys and mouse");
     KeyTables(ui, state);
-    AboutSection(ui);
+    AboutSection(ui, state);
+  } else if (shown.page == kLicencesPage) {
+    // Draws only the visible lines, since the text is long and not wrapped.
+    ImGui::TextUnformatted(shown.text.data(), shown.text.data() + shown.text.size());
+    ui.widgets.RecordText(shown.text.substr(0, shown.text.find('\n')));
   } else {
-    ManualPage(ui, shown.text);
+    const PageUse use = ManualPage(ui, shown.text, anchor);
+    HelpDialog* const now = std::get_if<HelpDialog>(&state.dialogs.back());
+    if (use.has_scrolled && now != nullptr && now->page == shown.page + "#" + anchor)
+      now->page = shown.page;
+    if (!use.link.empty()) FollowHelpLink(state, use.link);
   }
   ImGui::EndChild();
 }

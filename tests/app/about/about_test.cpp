@@ -47,6 +47,16 @@ TEST(About, StatesLicenceOfEachLibrary) {
   }
 }
 
+TEST(About, LongVersionNamesAFileThatHoldsEveryLicence) {
+  const std::string text = OutputOf(ARTHRO_PROGRAM " --version --long");
+  const std::size_t place = text.rfind(" in /");
+  ASSERT_NE(place, std::string::npos) << text;
+  const std::string file = text.substr(place + 4, text.find('\n', place) - place - 4);
+  const std::string licences = ReadWholeFile(file, 8 << 20);
+  for (const BuiltWith& own : Libraries())
+    EXPECT_NE(licences.find("======== " + std::string(own.package)), std::string::npos) << own.name;
+}
+
 TEST(About, LongVersionHoldsCommitAndLibraries) {
   const std::string text = OutputOf(ARTHRO_PROGRAM " --version --long");
   EXPECT_NE(text.find("commit " + ShortCommit()), std::string::npos) << text;

@@ -64,6 +64,23 @@ TEST_F(StartWindow, ASceneThatCannotBeReadSaysSoAndBlocksNothing) {
       "expect \"Import a panorama…\"\n");
 }
 
+TEST_F(StartWindow, TheManualIsReadFromPageToPage) {
+  Drive(R"(
+click "?"
+click "Page of the manual"
+click "Manual of Arthroscene"
+click Jobs
+expect "Jobs of the command line"
+click method.md
+expect Units
+click "Page of the manual"
+click "Keys and mouse"
+click "About this program"
+click "Show the texts of the licences"
+expect "======== libceres-dev ========"
+)");
+}
+
 TEST_F(StartWindow, SettingsChangeTheLooksAtOnce) {
   Drive(R"(
 key ctrl+,

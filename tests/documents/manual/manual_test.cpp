@@ -194,7 +194,9 @@ class ManualOfJobs : public ::testing::Test {
     if (job != nullptr && words[next] == "bench") return "";  // a program of its own
     if (job != nullptr && words[next] == "help" && next + 1 < words.size()) {
       const std::string& page = words[next + 1];
-      return page == "PAGE" || fs::exists(kManual / (page + ".md")) ? "" : "no page " + page;
+      const bool is_there = fs::exists(kManual / (page + ".md")) ||
+                            fs::exists(kManual.parent_path() / (page + ".md"));
+      return page == "PAGE" || is_there ? "" : "no page " + page;
     }
     for (std::size_t i = next; i < words.size(); ++i) {
       if (job != nullptr)
