@@ -62,6 +62,7 @@ void BeginWith(State& state) {
 }
 constexpr const char* kFromFootage = "make-panorama";
 constexpr const char* kFromPicture = "import-panorama";
+constexpr const char* kFromPhantom = "phantom-footage";
 
 void OpenLibrary(State& state) {
   HideStartPage(state);
@@ -107,6 +108,14 @@ constexpr Command kStartPageCommands[] = {
      {},
      Idle,
      BeginWith<kFromPicture>},
+    {"new-from-phantom",
+     "New from a digital knee…",
+     "Make the footage of a computed knee, and begin a scene from it.",
+     "Scene",
+     {},
+     {},
+     Idle,
+     BeginWith<kFromPhantom>},
     {"open-library",
      "Model library",
      "Show the ready-made models of the knee on the page of tissues.",

@@ -30,8 +30,8 @@ void FileMenu(Ui& ui, EditorState& state) {
   if (is_pressed) ImGui::OpenPopup("file menu");
   ImGui::SetNextWindowPos({low.x, high.y + ui.Px(2)});
   if (!ImGui::BeginPopup("file menu")) return;
-  for (const char* id :
-       {"start-page", "new", "new-from-footage", "new-from-picture", "open", "open-demo"})
+  for (const char* id : {"start-page", "new", "new-from-footage", "new-from-picture",
+                         "new-from-phantom", "open", "open-demo"})
     Entry(ui, state, id);
   ImGui::Separator();
   for (const char* id : {"save", "save-as", "history"}) Entry(ui, state, id);

@@ -1,6 +1,7 @@
 // Ways to begin, and the recent scenes with their pictures.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <imgui.h>
 
@@ -124,16 +125,20 @@ void StartPagePanel(Ui& ui, EditorState& state, const Area& area,
   LargeText(ui, "Arthroscene");
   QuietText(ui, "Arthroscopy training made from surgical video.");
   Gap(ui);
-  const char* const tiles[] = {"new-from-footage", "new-from-picture", "open", "open-demo",
-                               "open-library"};
+  constexpr const char* kTiles[] = {"new-from-footage", "new-from-picture",
+                                    "new-from-phantom", "open",
+                                    "open-demo",        "open-library"};
+  constexpr int kCount = static_cast<int>(std::size(kTiles));
   const float gap = ui.Px(kGap), available = ImGui::GetContentRegionAvail().x;
-  const int columns =
-      std::clamp(static_cast<int>((available + gap) / ui.Px(kTileWidth + kGap)), 1, 5);
+  const int fitting =
+      std::clamp(static_cast<int>((available + gap) / ui.Px(kTileWidth + kGap)), 1, kCount);
+  // Rows of equal length.
+  const int rows = (kCount + fitting - 1) / fitting, columns = (kCount + rows - 1) / rows;
   const float tile =
       std::floor((available - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns));
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < kCount; ++i) {
     if (i % columns != 0) ImGui::SameLine(0, gap);
-    Tile(ui, state, tiles[i], tile);
+    Tile(ui, state, kTiles[i], tile);
   }
   Gap(ui, 10);
   Recent(ui, state, texture_of);

@@ -24,6 +24,10 @@ void OpenFootage(EditorState& state, const std::filesystem::path& file);
 // The same with all of the board's clips and one more.
 void BrowseForJoined(EditorState& state);
 void JoinFootage(EditorState& state, const std::filesystem::path& file);
+// Asks for a new folder, makes a digital knee with its footage, grid and lens in it, and opens the
+// footage. The knee is always the same.
+void BrowseForPhantom(EditorState& state);
+void MakePhantomFootage(EditorState& state, const std::filesystem::path& folder);
 // Reads the clip of a reopened scene, which must be the one that its panorama was made from.
 void ReadFootageAgain(EditorState& state);
 // Asks where the clip of a reopened scene lies now.

@@ -64,6 +64,22 @@ TEST_F(StartWindow, ASceneThatCannotBeReadSaysSoAndBlocksNothing) {
       "expect \"Import a panorama…\"\n");
 }
 
+// Stops the work at once, since all of it takes a minute of processor time. No part of the folder
+// is written.
+TEST_F(StartWindow, MakesADigitalKneeBesideTheWindowAndStops) {
+  const fs::path folder = temp / "digital-knee";
+  Drive("click Start\nclick \"New from a digital knee…\"\nset \"File name\" " + folder.string() +
+        "\nclick \"Make it\"\nwait frames 3\nexpect \"Make a digital knee\"\nclick Stop\n"
+        "wait job\nexpect not Run\n");
+  EXPECT_FALSE(fs::exists(folder));
+}
+
+TEST_F(StartWindow, PutsNoDigitalKneeIntoAFolderOfOtherFiles) {
+  Drive("click Start\nclick \"New from a digital knee…\"\nset \"File name\" " +
+        (temp / "a").string() + "\nclick \"Make it\"\nwait job\nexpect not Run\n");
+  EXPECT_FALSE(fs::exists(temp / "a/footage"));
+}
+
 TEST_F(StartWindow, TheManualIsReadFromPageToPage) {
   Drive(R"(
 click "?"

@@ -38,6 +38,7 @@ void PanoramaPanel(Ui& ui, EditorState& state) {
   CommandButton(ui, state, "import-panorama", {-FLT_MIN, 0});
   CommandButton(ui, state, "make-panorama", {-FLT_MIN, 0});
   if (!document.panorama) {
+    CommandButton(ui, state, "phantom-footage", {-FLT_MIN, 0});
     QuietText(
         ui,
         "A panorama is one picture of the joint, made from a video. Drop a panorama or a video "
