@@ -3,6 +3,7 @@ import html
 import json
 from collections import Counter
 from pathlib import Path
+from urllib.parse import quote
 
 out = Path(snakemake.params.out)
 
@@ -11,27 +12,46 @@ def number(value, factor=1.0, digits=1):
     return "–" if value is None else f"{factor * value:.{digits}f}"
 
 
+def read(file):
+    """JSON of a file; an empty one, of a refused clip, is {}."""
+    text = file.read_text()
+    return json.loads(text) if text else {}
+
+
+def picture(name, shown, opened, words):
+    """A small picture that opens the large one; nothing for a refused clip."""
+    if not (out / name / shown).stat().st_size:
+        return "–"
+    # Names of folders may hold any letter.
+    return (f'<a href="{quote(name)}/{opened}"><img src="{quote(name)}/{shown}" '
+            f'alt="{words} of {html.escape(name)}"></a>')
+
+
 def row(name):
-    report = json.loads((out / name / "panorama.json").read_text())
-    check = json.loads((out / name / "check.json").read_text())
-    frames = report["frames"]
+    report, check = read(out / name / "panorama.json"), read(out / name / "check.json")
+    frames = report.get("frames", [])
     reasons = Counter(frame["reason"] for frame in frames if frame["status"] == "rejected")
     placed = sum(frame["status"] == "placed" for frame in frames)
-    noise = check.get("relief", {}).get("median_sigma")
-    remarks = [f"{count} × {reason}" for reason, count in reasons.items()]
+    remarks = []
+    for step in ("panorama", "depth", "check", "view"):
+        remarks += [f"{step}: {line}" for line in (out / name / f"{step}.txt").read_text().splitlines()]
+    is_refused = bool(remarks)
+    remarks += [f"{count} × {reason}" for reason, count in reasons.items()]
     remarks += (out / name / "lens.txt").read_text().splitlines()
     remarks += check.get("errors", []) + check.get("warnings", [])
+    verdict = "refused" if is_refused else check.get("status", "not checked")
     cells = [
         html.escape(name),
-        f'<a href="{name}/panorama.png"><img src="{name}/panorama.png" alt="panorama"></a>',
-        f'<a href="{name}/view.png"><img src="{name}/view.png" alt="view through the scope"></a>',
-        f"{placed} / {len(frames) - placed}",
-        f'{number(report["mean_error_px"])} / {number(report["max_error_px"])}',
-        number(noise, 1e3, 2),
-        html.escape(check["status"]),
+        picture(name, "panorama-small.png", "panorama.png", "panorama"),
+        picture(name, "view.png", "view.png", "view"),
+        f"{placed} / {len(frames) - placed}" if frames else "–",
+        f'{number(report.get("mean_error_px"))} / {number(report.get("max_error_px"))}',
+        number(check.get("relief", {}).get("median_sigma"), 1e3, 2),
+        html.escape(verdict),
         "<br>".join(html.escape(str(remark)) for remark in remarks),
     ]
-    return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+    mark = ' class="refused"' if is_refused else ""
+    return f"<tr{mark}>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
 
 
 head = [
@@ -42,6 +62,7 @@ style = (
     "body{font:15px sans-serif;margin:1rem}table{border-collapse:collapse}"
     "th,td{text-align:left;vertical-align:top;padding:.4rem .8rem;border-bottom:1px solid #ccc}"
     "img{height:140px;max-width:280px;object-fit:contain;background:#000}"
+    ".refused{background:#fbeaea}td:last-child{overflow-wrap:anywhere}"
 )
 page = f"""<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>Scenes</title><style>{style}</style></head><body>

@@ -1,9 +1,14 @@
-# Copies a scene and puts the depth map and its noise in the place of its own.
+# Copies a scene and puts the depth map and its noise in the place of its own. The scene of a refused clip is an empty
+# folder.
 import json
 import shutil
+import sys
 from pathlib import Path
 
 folder = Path(snakemake.output.scene)
+if not Path(snakemake.input.depth).stat().st_size:
+    folder.mkdir(parents=True, exist_ok=True)
+    sys.exit(0)
 shutil.copytree(snakemake.input.first, folder, dirs_exist_ok=True)
 file = folder / "scene.json"
 scene = json.loads(file.read_text())

@@ -98,7 +98,7 @@ TEST_F(Install, HoldsEveryPlaceThatTheDocumentsName) {
 }
 
 TEST_F(Install, ScriptsAreExecutable) {
-  for (const char* file : {"lab-records", "batch/slurm/state"})
+  for (const char* file : {"lab-records", "batch/slurm/state", "batch/step"})
     EXPECT_EQ(::access((usr_ / "share/arthroscene" / file).c_str(), X_OK), 0) << file;
 }
 

@@ -1,4 +1,6 @@
 // arthroscene panorama FOOTAGE -o pano.png: a clip becomes one picture [paper, 3.1].
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -22,6 +24,7 @@
 #include "app/state/footage/footage_source.h"
 #include "app/state/footage/measured_backdrop.h"
 #include "authoring/adjustment/crop_backdrop.h"
+#include "authoring/footage/resized_picture.h"
 #include "authoring/panorama/crop_panorama.h"
 #include "authoring/panorama/make_panorama.h"
 #include "authoring/panorama/report_io.h"
@@ -33,6 +36,7 @@
 #include "simulation/core/input_file.h"
 #include "simulation/scene/files/archive_io.h"
 #include "simulation/scene/files/scene_io.h"
+#include "simulation/scene/image_io.h"
 #include "simulation/scene/json/lens_io.h"
 
 namespace arthro::app {
@@ -41,7 +45,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PanoramaJob {
-  std::string lens, output, report, scene, ties, places;
+  std::string lens, output, thumbnail, report, scene, ties, places;
   std::vector<std::string> joined;
   std::optional<authoring::PixelBox> crop;
   // Whether the panorama lies over a measured relief; auto: where frames fit no plane, the clip
@@ -68,6 +72,15 @@ fs::path PieceName(const fs::path& output, std::size_t number) {
   name.replace_filename(
       fmt::format("{}-{}{}", output.stem().string(), number, output.extension().string()));
   return name;
+}
+
+void WriteThumbnail(const fs::path& file, const authoring::RgbaPicture& panorama) {
+  constexpr int kWidth = 320;  // px; as the start page shows scenes
+  const ColourImage picture = OnBlack(panorama);
+  const int width = std::min(kWidth, picture.width);
+  const double height = static_cast<double>(width) * picture.height / picture.width;
+  WriteColourImage(
+      file, authoring::Resized(picture, width, std::max(1, static_cast<int>(std::lround(height)))));
 }
 
 // A scene that can be practised in at once: the panorama with the paper's depth map and its noise.
@@ -164,6 +177,10 @@ MadePanorama BestPanorama(const PanoramaJob& job, const Progress& progress) {
 
 void Run(PanoramaJob job) {
   authoring::CheckPanoramaName(job.output);
+  if (job.thumbnail == "-")
+    throw Error(Code::kBadArgument,
+                "the small picture goes to a file; give --thumbnail a name instead of -");
+  if (!job.thumbnail.empty()) authoring::CheckPanoramaName(job.thumbnail);
   if (!job.scene.empty() && job.output == "-")
     throw Error(Code::kBadArgument,
                 "a scene is made from the panorama's file; give -o a name instead of -");
@@ -198,6 +215,7 @@ void Run(PanoramaJob job) {
     report.pieces[i].file = file.filename().string();
   }
   if (!job.report.empty()) authoring::WriteReport(job.report, report);
+  if (!job.thumbnail.empty()) WriteThumbnail(job.thumbnail, result.picture);
   authoring::WritePanorama(job.output, result.picture);
   if (!job.scene.empty() && made.relief) {
     authoring::Document document =
@@ -244,6 +262,9 @@ void AddPanoramaJob(CLI::App& program) {
                                      "JPEG; - is standard output."),
                      kPictureFile)
       ->required();
+  files->Output(job->add_option("--thumbnail", own->thumbnail,
+                                "Also write the panorama as a small picture, at most 320 px wide."),
+                kPictureFile);
   files->Output(job->add_option(
                     "--report", own->report,
                     "Report as JSON: the place of each frame, or the reason why it was rejected."),

@@ -94,6 +94,7 @@ TEST_F(JobFiles, AnOutputThatIsAnInputIsRefusedAlsoWithOverwrite) {
       {"view @S.arthro -o @S.arthro", "S.arthro"},
       {"panorama @F -o @F/0003.png", "0003.png"},
       {"panorama @F -o @p.png --report @F/0003.png", "0003.png"},
+      {"panorama @F -o @p.png --thumbnail @F/0003.png", "0003.png"},
       {"panorama @F/%04d.png -o @F/0003.png", "0003.png"},
       {"panorama @F -o @p.png --lens @lens.json --report @lens.json", "lens.json"},
       {"panorama @F -o @p.png --options @o.json --report @o.json", "o.json"},

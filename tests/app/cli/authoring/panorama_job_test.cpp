@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -41,6 +42,15 @@ TEST_F(PanoramaJob, WritesPictureAndReport) {
   EXPECT_EQ(report.at("frames").size(), 4u);
   for (const auto& entry : fs::directory_iterator(folder_.path()))
     EXPECT_EQ(entry.path().string().find(".partial"), std::string::npos) << entry.path();
+}
+
+TEST_F(PanoramaJob, WritesASmallPictureOfTheSameShape) {
+  const auto result = Run("clip", "--thumbnail " + (folder_ / "small.png").string());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const ColourImage picture = ReadColourImage(folder_ / "p.png"),
+                    small = ReadColourImage(folder_ / "small.png");
+  EXPECT_EQ(small.width, std::min(320, picture.width));
+  EXPECT_NEAR(small.height, static_cast<double>(small.width) * picture.height / picture.width, 0.5);
 }
 
 TEST_F(PanoramaJob, SceneKeepsTheMedium) {
