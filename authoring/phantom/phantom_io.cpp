@@ -211,11 +211,13 @@ Scene SceneOf(const Phantom& phantom) {
   Scene scene;
   scene.title = fmt::format("Digital knee {}", phantom.options.seed);
   scene.author = "arthroscene phantom";
+  scene.side = BodySide::kRight;  // cavity.h
   scene.backdrop.panorama = "panorama" + extension;
   scene.backdrop.depth = "depth.tiff";
   scene.backdrop.radius = phantom.cavity.radius;
   scene.backdrop.projection = phantom.projection;
   scene.backdrop.rights = rights;
+  scene.backdrop.depth_rights = rights;
   // The picture is computed with light from the portal; a trainee sees it lit from the scope.
   scene.backdrop.relight = 0.6;
   scene.portals.incision_spacing = phantom.incision_spacing;

@@ -11,6 +11,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/scene/files/scene_check.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/mesh/mesh_io.h"
@@ -58,6 +59,13 @@ TEST(PhantomFolder, LoadsAsASceneWithBothTissues) {
   EXPECT_TRUE(fs::exists(folder / "knee/panorama_with_tissue.png"));
   EXPECT_EQ(ReadDepthMap(folder / "knee/depth_with_tissue.tiff").relief,
             SmallPhantom().with_tissues.depth.relief);
+}
+
+TEST(PhantomFolder, StatesSideAndRightsOfEveryAsset) {
+  const Scene scene = SceneOf(SmallPhantom());
+  EXPECT_EQ(scene.side, BodySide::kRight);
+  EXPECT_TRUE(MissingForSharing(scene).empty());
+  EXPECT_EQ(MissingRights(scene.backdrop.depth_rights), "");
 }
 
 TEST(PhantomFolder, TruthPlacesTheMeniscusWhereItsLandmarksAre) {

@@ -7,6 +7,7 @@
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/json/lens_io.h"
 #include "simulation/scene/mesh/mesh_io.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/schema_fault.h"
 
@@ -237,6 +238,11 @@ TEST(CheckJob, ListsWhatIsMissingForSharing) {
        {"missing: the scene has no author\n", "missing: the panorama has no consent\n",
         "missing: tissue \"meniscus\" has no source, licence\n", "3 things should be stated"})
     EXPECT_NE(poor.err.find(line), std::string::npos) << line << "\n" << poor.err;
+}
+
+TEST(CheckJob, FindsTheDemoReadyForSharing) {
+  const auto demo = test::RunProgram("check --for-sharing " ARTHRO_SOURCE_DIR "/resources/demo");
+  EXPECT_EQ(demo.exit_code, 0) << demo.err;
 }
 
 TEST(CheckJob, RefusesWhatIsNoScene) {
