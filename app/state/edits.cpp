@@ -39,6 +39,11 @@ void SetAuthor(EditorState& state, const std::string& author) {
   Edit(state, "Change the author", "author", [&](auto& next) { next.scene.author = author; });
 }
 
+void SetSide(EditorState& state, BodySide side) {
+  if (side == state.document().scene.side) return;
+  Edit(state, "Change the side", "", [&](auto& next) { next.scene.side = side; });
+}
+
 void SetRights(EditorState& state, const authoring::Asset& asset, const AssetRights& rights,
                const std::string& what) {
   if (rights == RightsOf(state.document(), asset)) return;

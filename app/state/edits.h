@@ -20,6 +20,7 @@ void Edit(EditorState& state, const std::string& name, const std::string& merge_
 
 void SetTitle(EditorState& state, const std::string& title);
 void SetAuthor(EditorState& state, const std::string& author);
+void SetSide(EditorState& state, BodySide side);
 void SetRights(EditorState& state, const authoring::Asset& asset, const AssetRights& rights,
                const std::string& what);
 void SetBackdrop(EditorState& state, const Backdrop& backdrop, const std::string& what);
@@ -32,6 +33,7 @@ void SetPanorama(EditorState& state, const std::string& name,
 void SetPanorama(EditorState& state, const std::string& name,
                  const std::shared_ptr<const ColourImage>& panorama, const Projection& projection,
                  const Lens& lens, bool is_lens_guessed);
+inline constexpr double kMostIncisionSpacing = 0.08;  // m, to either side: end of the sliders
 void SetIncisionSpacing(EditorState& state, double spacing);  // m
 // rad; of the lens too. Does nothing beyond the end of the lens.
 void SetFieldOfView(EditorState& state, double field_of_view);

@@ -54,14 +54,19 @@ void MediumChooser(Ui& ui, EditorState& state, Medium medium) {
     SetMedium(state, Medium::kGas);
 }
 
-// Pairs of portals by name, for the side of the knee.
+// Pairs of portals by name, for the side of the scene.
 void PortalChooser(Ui& ui, EditorState& state, double spacing) {
-  bool& is_left = state.steps.portals->is_left_knee;
+  const BodySide side = state.document().scene.side;
+  const bool is_left = side == BodySide::kLeft;
   const float width = (ImGui::GetContentRegionAvail().x - ui.Px(6)) / 2;
-  constexpr const char* kHelp = "Side for which the portals below are named.";
-  if (ToggleButton(ui, "Right knee", !is_left, true, {width, 0}, kHelp)) is_left = false;
+  constexpr const char* kHelp = "Side of the scene, for which the portals below are named.";
+  if (ToggleButton(ui, "Right knee", side == BodySide::kRight, true, {width, 0}, kHelp))
+    SetSide(state, BodySide::kRight);
   ImGui::SameLine(0, ui.Px(6));
-  if (ToggleButton(ui, "Left knee", is_left, true, {width, 0}, kHelp)) is_left = true;
+  if (ToggleButton(ui, "Left knee", is_left, true, {width, 0}, kHelp))
+    SetSide(state, BodySide::kLeft);
+  if (side == BodySide::kUnknown)
+    QuietText(ui, "The side is not stated. The names below are those of a right knee.");
   const auto named = simulation::EveryNamedPortals();
   std::vector<std::string> titles;
   for (const simulation::NamedPortals& portals : named) titles.emplace_back(portals.title);
@@ -85,7 +90,8 @@ void PortalsPanel(Ui& ui, EditorState& state) {
   Heading(ui, "Incisions");
   PortalChooser(ui, state, scene.portals.incision_spacing);
   double spacing_mm = MmFromMetres(scene.portals.incision_spacing);
-  Change change = Slider(ui, "Incision spacing", spacing_mm, -80, 80, "%.1f mm",
+  constexpr double kMost = kMostIncisionSpacing / kMetrePerMillimetre;
+  Change change = Slider(ui, "Incision spacing", spacing_mm, -kMost, kMost, "%.1f mm",
                          "From the scope's portal to the instrument's; negative when the "
                          "instrument enters on the left. Ctrl+click to type.");
   if (change) SetIncisionSpacing(state, MetresFromMm(spacing_mm));

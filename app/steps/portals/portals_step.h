@@ -19,7 +19,6 @@ struct PortalsStep {
 
   std::vector<LensChoice> lenses;  // common scopes, read when the panel is first shown
   bool shows_as_filmed = false;    // the footage's light, to compare
-  bool is_left_knee = false;       // side for which portals are named
   ReachBoard reach;
 };
 std::span<const Command> PortalsCommands();

@@ -2,6 +2,7 @@
 #include "app/steps/tissue/library/tissue_library.h"
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <thread>
 
@@ -10,6 +11,7 @@
 
 #include "app/editor/every_step.h"
 #include "app/state/command.h"
+#include "app/state/edits.h"
 #include "tests/support/plain_document.h"
 
 namespace arthro::app {
@@ -39,6 +41,21 @@ TEST_F(TissueLibrary, AModelIsAddedOnTheReliefByOneStep) {
   EXPECT_FALSE(state->history.CanUndo());
   app::Run(*state, "redo");
   EXPECT_EQ(Tissues().size(), 1u);
+}
+
+TEST_F(TissueLibrary, AModelIsMadeForTheSideOfTheScene) {
+  const auto middle_of = [&](BodySide side) {
+    state.reset(new EditorState(MakeEditorState(test::PlainDocument())));
+    SetSide(*state, side);
+    app::Run(*state, "add-loose-body");
+    Finish();
+    glm::dvec3 sum{0.0};
+    for (const glm::dvec3& x : state->document().surfaces.at(0)->vertices) sum += x * x * x;
+    return sum;
+  };
+  const double right = middle_of(BodySide::kRight).x;
+  ASSERT_GT(std::abs(right), 0) << "no mirror image of itself";
+  EXPECT_NEAR(middle_of(BodySide::kLeft).x, -right, 1e-6 * std::abs(right));
 }
 
 TEST_F(TissueLibrary, ATearIsMadeByOneStep) {

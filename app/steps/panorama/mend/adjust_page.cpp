@@ -78,8 +78,7 @@ void AdjustFields(Ui& ui, EditorState& state) {
   int side = static_cast<int>(state.document().scene.side);
   if (Combo(ui, "Side", side, {"not stated", "left knee", "right knee"},
             "Side of the body that the scene shows."))
-    Edit(state, "Change the side", "",
-         [&](auto& next) { next.scene.side = static_cast<BodySide>(side); });
+    SetSide(state, static_cast<BodySide>(side));
   CommandButton(ui, state, "mirror-scene", {-FLT_MIN, 0});
 }
 

@@ -3,13 +3,12 @@
 #include <imgui.h>
 
 #include "app/panels/options_panel.h"
+#include "app/state/edits.h"
 #include "app/steps/practice/practice_step.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
 namespace {
-
-constexpr double kMostSpacing = 60;  // mm, of the slider on both sides
 
 simulation::Practice* Session(EditorState& state) {
   if (state.practice) return &*state.practice;
@@ -18,8 +17,9 @@ simulation::Practice* Session(EditorState& state) {
 
 // Moves the incision of the running session alone; the scene keeps its own.
 void SpacingField(Ui& ui, simulation::Practice& session) {
+  constexpr double kMost = kMostIncisionSpacing / kMetrePerMillimetre;
   double mm = MmFromMetres(session.incision_spacing());
-  if (Slider(ui, "Incision spacing of this session", mm, -kMostSpacing, kMostSpacing, "%.1f mm",
+  if (Slider(ui, "Incision spacing of this session", mm, -kMost, kMost, "%.1f mm",
              "The scene keeps its own spacing, which the Portals page sets."))
     session.SetIncisionSpacing(MetresFromMm(mm));
 }

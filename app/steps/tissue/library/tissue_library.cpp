@@ -32,7 +32,9 @@ bool NeedsTetrahedra(const authoring::LibraryModel& model) {
 void AddModelAt(EditorState& state, authoring::ModelKind kind,
                 const std::optional<authoring::Sight>& sight) {
   const ModelShelf& shelf = *state.steps.tissue->shelf;
-  const authoring::KneeSide side = shelf.side;
+  const authoring::KneeSide side = state.document().scene.side == BodySide::kLeft
+                                       ? authoring::KneeSide::kLeft
+                                       : authoring::KneeSide::kRight;
   const authoring::KneeSize size = shelf.size;
   const authoring::MeshSize mesh_size = state.steps.tissue->mesh_size;
   const std::string title = EntryOf(kind).title;

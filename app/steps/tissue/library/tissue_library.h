@@ -19,7 +19,6 @@ namespace arthro::app {
 // State of the library beside the document.
 struct ModelShelf {
   bool is_open = false;
-  authoring::KneeSide side = authoring::KneeSide::kRight;
   authoring::KneeSize size = authoring::KneeSize::kAverage;
   std::array<std::optional<authoring::ModelThumbnail>, 10> thumbnails;  // one per kind
   // Model that is dragged out of the list, and the pointer as it was on the middle of its picture,

@@ -85,10 +85,11 @@ void TearSlider(Ui& ui, EditorState& state, const char* name, double& value, dou
 
 void TissueLibraryFields(Ui& ui, EditorState& state) {
   ModelShelf& shelf = *state.steps.tissue->shelf;
-  int side = shelf.side == authoring::KneeSide::kLeft ? 0 : 1;
-  if (Combo(ui, "Knee", side, {"left knee", "right knee"},
-            "Side of the knee that the models are made for."))
-    shelf.side = side == 0 ? authoring::KneeSide::kLeft : authoring::KneeSide::kRight;
+  int side = static_cast<int>(state.document().scene.side);
+  if (Combo(ui, "Side", side, {"not stated", "left knee", "right knee"},
+            "Side of the scene. The models are made for it, and for a right knee while it is not "
+            "stated."))
+    SetSide(state, static_cast<BodySide>(side));
   int size = static_cast<int>(shelf.size);
   if (Combo(ui, "Size", size, {"small", "average", "large"},
             "One standard deviation below the published mean, the mean, or one above."))
