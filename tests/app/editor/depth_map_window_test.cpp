@@ -96,6 +96,17 @@ expect "Distance from the portal along the line, mm"
 )");
 }
 
+TEST_F(DepthMapWindow, TheProfileIsDrawnBelowThePicturesThatAreCompared) {
+  Drive(R"(click "Side by side"
+click Profile
+expect "The profile of a line appears here."
+drag "Depth map" 100 20
+expect "Along the line the tissue lies"
+expect "Distance from the portal along the line, mm"
+expect "Filtered grey"
+)");
+}
+
 TEST_F(DepthMapWindow, AStrokeOfTheBrushIsOneStepThatIsUndone) {
   Drive(R"(click Brush
 click Mask

@@ -187,15 +187,16 @@ void DepthBoardPage(Ui& ui, EditorState& state, const Area& area, const DepthTex
   DepthBoard& board = state.steps.depth->board;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, 0xFF000000);
-  Area map = area;
+  Area pictures = area;  // above the profile
+  if (board.tool == MapTool::kProfile)
+    pictures.height = std::max(1.0f, area.height - ui.Px(kProfileHeight));
+  Area map = pictures;
   if (board.compares) {
     // The map keeps the upper left quarter, in which its tools work.
-    ComparedPictures(ui, state, area, texture);
-    map.width = std::floor(0.5f * area.width) - ui.Px(1);
-    map.height = std::floor(0.5f * area.height) - ui.Px(1);
+    ComparedPictures(ui, state, pictures, texture);
+    map.width = std::floor(0.5f * pictures.width) - ui.Px(1);
+    map.height = std::floor(0.5f * pictures.height) - ui.Px(1);
   }
-  if (board.tool == MapTool::kProfile && !board.compares)
-    map.height = std::max(1.0f, area.height - ui.Px(kProfileHeight));
   ImGui::SetCursorScreenPos({map.x, map.y});
   HitArea("Depth map", {map.width, map.height},
           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
@@ -225,8 +226,9 @@ void DepthBoardPage(Ui& ui, EditorState& state, const Area& area, const DepthTex
   Take(state, screen);
   Legend(ui, map, board.drawn.legend);
   ImGui::PopClipRect();
-  if (board.tool == MapTool::kProfile && !board.compares)
-    ProfileFigure(ui, state, {area.x, map.y + map.height, area.width, area.height - map.height});
+  if (board.tool == MapTool::kProfile)
+    ProfileFigure(ui, state,
+                  {area.x, area.y + pictures.height, area.width, area.height - pictures.height});
 }
 
 }  // namespace arthro::app
