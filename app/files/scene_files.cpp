@@ -202,7 +202,7 @@ void OpenDropped(EditorState& state, const fs::path& file) {
     OpenFootage(state, file);
   } else if (is_one_of({".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"})) {
     ImportPanorama(state, file);
-  } else if (is_one_of({".stl", ".obj", ".ply", ".off", ".vtp"})) {
+  } else if (is_one_of({".stl", ".obj", ".ply", ".off", ".vtp", ".vtu"})) {
     AskForUnit(state, file);
   } else if (fs::is_directory(file) || is_one_of({".json", ".arthro"})) {
     GuardUnsaved(state, "open another scene", [file](EditorState& sure) { OpenScene(sure, file); });
@@ -210,7 +210,7 @@ void OpenDropped(EditorState& state, const fs::path& file) {
     throw Error(
         Code::kBadArgument,
         "this is no scene, picture, video or surface; drop a scene, PNG, JPEG or TIFF picture, "
-        "video, folder of frames, or STL, OBJ, PLY, OFF or VTP surface",
+        "video, folder of frames, STL, OBJ, PLY, OFF or VTP surface, or VTU volume",
         file);
   }
 }

@@ -11,6 +11,7 @@
 #include "app/platform/file_browser_model.h"
 #include "authoring/project/files/scene_versions.h"
 #include "simulation/scene/mesh/surface_mesh.h"
+#include "simulation/scene/mesh/tet_mesh.h"
 
 namespace arthro::app {
 
@@ -52,7 +53,8 @@ struct BrowseDialog {
 struct UnitDialog {
   std::filesystem::path file;
   std::shared_ptr<const SurfaceMesh> surface;
-  double longest_side = 0;  // longest side of its bounding box
+  std::shared_ptr<const TetMesh> tetrahedra;  // whose surface it is; null: the file has none
+  double longest_side = 0;                    // longest side of its bounding box
   std::string unit;
 };
 // A page of the manual (app/editor/help/open_help.h).

@@ -119,8 +119,9 @@ void Draw(Ui& ui, EditorState& state, UnitDialog& dialog) {
   if (!import && !cancel) return;
   const UnitDialog taken = Take<UnitDialog>(state);
   if (import)
-    Guarded(state, "Import a surface",
-            [&] { ImportSurface(state, taken.file, *taken.surface, taken.unit); });
+    Guarded(state, "Import a surface", [&] {
+      ImportSurface(state, taken.file, *taken.surface, taken.unit, taken.tetrahedra.get());
+    });
 }
 
 void Draw(Ui& ui, EditorState& state, PracticeEndedDialog& dialog) {

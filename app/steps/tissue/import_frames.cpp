@@ -49,11 +49,16 @@ bool IsLikelyPartner(const EditorState& state, const std::filesystem::path& file
 }
 
 void AddImported(EditorState& state, Tissue tissue, const SharedSurface& surface,
-                 authoring::ImportFrame frame) {
+                 authoring::ImportFrame frame, const std::filesystem::path& mesh) {
   tissue.name = frame.tissue = authoring::FreeTissueName(state.document().scene, tissue.name);
   Edit(state, "Add " + tissue.name, "", [&](authoring::Document& next) {
     next.scene.tissues.push_back(tissue);
     next.surfaces.push_back(surface);
+    if (!mesh.empty()) {
+      const std::string name = "tissues/" + mesh.filename().string();
+      next.scene.tissues.back().mesh = name;
+      next.files[name].file = mesh;
+    }
     authoring::PlacingNotes notes = authoring::NotesOf(next.scene);
     authoring::Put(notes, frame);
     authoring::PutNotes(next.scene, notes);

@@ -27,9 +27,10 @@ int PartnerOfImport(const EditorState& state);
 bool IsLikelyPartner(const EditorState& state, const std::filesystem::path& file,
                      const SurfaceMesh& surface, double metres_per_unit);
 std::optional<authoring::ImportFrame> FrameOf(const EditorState& state, int tissue);
-// Adds a tissue with its frame, as one step of the history.
+// Adds a tissue with its frame, as one step of the history. `mesh`: file of its tetrahedra; empty:
+// none.
 void AddImported(EditorState& state, Tissue tissue, const SharedSurface& surface,
-                 authoring::ImportFrame frame);
+                 authoring::ImportFrame frame, const std::filesystem::path& mesh = {});
 
 // The other tissues of its group.
 std::vector<int> ImportedTogether(const EditorState& state, int tissue);

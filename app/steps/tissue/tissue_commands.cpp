@@ -28,7 +28,7 @@ void ToggleBrush(State& state) {
 constexpr Command kTissueCommands[] = {
     {"import-surface",
      "Import a surface…",
-     "Add a tissue from an STL, OBJ, PLY, OFF or VTP file.",
+     "Add a tissue from an STL, OBJ, PLY, OFF, VTP or VTU file.",
      "Edit",
      {},
      {},

@@ -81,9 +81,10 @@ void BrowseForSurface(EditorState& state);
 // Reads the file beside the window, then asks for its unit; a likely one is chosen already.
 void AskForUnit(EditorState& state, const std::filesystem::path& file);
 // Adds a tissue named after the file, on the relief in the middle of the view, or beside the tissue
-// with which it keeps its place. Vertices in `unit`: m, cm, mm, um or in.
+// with which it keeps its place. Vertices in `unit`: m, cm, mm, um or in. `tetrahedra` that the
+// file had beside the surface are kept as those of the tissue; null: none.
 void ImportSurface(EditorState& state, const std::filesystem::path& file, SurfaceMesh mesh,
-                   const std::string& unit);
+                   const std::string& unit, const TetMesh* tetrahedra = nullptr);
 // True where the relief hides nearly all of it from the scope's portal.
 bool IsHidden(const EditorState& state, int tissue);
 // Moves the chosen tissue to where an imported one is laid, in the middle of the view.

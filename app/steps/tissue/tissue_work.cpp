@@ -12,12 +12,14 @@
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/alignment/place_by_hand.h"
 #include "authoring/models/model_in_scene.h"
+#include "authoring/project/files/file_ending.h"
 #include "authoring/tissue/likely_unit.h"
 #include "authoring/tissue/tetrahedra/mesh_budget.h"
 #include "simulation/core/folders/file_name.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/backdrop/hidden_share.h"
 #include "simulation/scene/mesh/mesh_io.h"
+#include "simulation/scene/mesh/tet_surface.h"
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::app {
@@ -84,15 +86,20 @@ void BringBeforeScope(EditorState& state) {
 
 void BrowseForSurface(EditorState& state) {
   Browse(state, BrowseFor::kOpenFile, "Import a surface", "Import",
-         {{"Surfaces", {".stl", ".obj", ".ply", ".off", ".vtp"}}, {"All files", {}}}, AskForUnit);
+         {{"Surfaces", {".stl", ".obj", ".ply", ".off", ".vtp", ".vtu"}}, {"All files", {}}},
+         AskForUnit);
 }
 
 void AskForUnit(EditorState& state, const fs::path& file) {
   state.jobs.Start("Read " + file.filename().string(), [file](const Progress&) {
-    auto surface = std::make_shared<const SurfaceMesh>(ReadSurface(file, 1.0));
+    std::shared_ptr<const TetMesh> tetrahedra;
+    if (authoring::LowerExtension(file) == ".vtu")
+      tetrahedra = std::make_shared<const TetMesh>(ReadTetMesh(file));
+    auto surface = std::make_shared<const SurfaceMesh>(tetrahedra ? SurfaceOf(*tetrahedra)
+                                                                  : ReadSurface(file, 1.0));
     const double longest_side = authoring::LongestSide(*surface);
-    return [dialog = UnitDialog{file, surface, longest_side, authoring::LikelyUnit(longest_side)}](
-               EditorState& now) {
+    return [dialog = UnitDialog{file, surface, tetrahedra, longest_side,
+                                authoring::LikelyUnit(longest_side)}](EditorState& now) {
       now.steps.tissue->imports->keeps_place = IsLikelyPartner(
           now, dialog.file, *dialog.surface, MetresPerUnit(dialog.unit).value_or(1.0));
       now.dialogs.push_back(dialog);
@@ -101,7 +108,7 @@ void AskForUnit(EditorState& state, const fs::path& file) {
 }
 
 void ImportSurface(EditorState& state, const fs::path& file, SurfaceMesh mesh,
-                   const std::string& unit) {
+                   const std::string& unit, const TetMesh* tetrahedra) {
   const double metres_per_unit = MetresPerUnit(unit).value_or(1.0);
   ImportFrames& imports = *state.steps.tissue->imports;
   const int partner = imports.keeps_place ? PartnerOfImport(state) : -1;
@@ -123,8 +130,15 @@ void ImportSurface(EditorState& state, const fs::path& file, SurfaceMesh mesh,
   }
   for (auto& x : mesh.vertices) x = metres_per_unit * x - frame.origin;
   if (partner < 0) tissue.pose = PoseOfImport(state, mesh);
-  AddImported(state, std::move(tissue), std::make_shared<const SurfaceMesh>(std::move(mesh)),
-              frame);
+  fs::path mesh_file;  // until the scene is saved, beside the window
+  if (tetrahedra != nullptr) {
+    TetMesh own = *tetrahedra;
+    for (auto& x : own.rest_positions) x = metres_per_unit * x - frame.origin;
+    mesh_file = state.scratch.NewFile(FileNameFrom(tissue.name, "tissue") + ".vtu");
+    WriteTetMesh(mesh_file, own);
+  }
+  AddImported(state, std::move(tissue), std::make_shared<const SurfaceMesh>(std::move(mesh)), frame,
+              mesh_file);
   imports.folders[state.document().scene.tissues.back().name] = file.parent_path();
   state.step = Step::kTissue;
   state.steps.tissue->page = TissuePage::kPlace;  // it is placed before anything else

@@ -80,6 +80,36 @@ TEST_F(Commands, ASurfaceIsReadInItsUnitAndLaidBeforeTheScope) {
   EXPECT_EQ(state.document().scene.tissues.size(), 2u);
 }
 
+// Two tetrahedra on a common face, in mm.
+TEST_F(Commands, AVolumeIsImportedWithItsTetrahedra) {
+  Open();
+  TetMesh mesh;
+  mesh.rest_positions = {{100, 0, 0}, {110, 0, 0}, {100, 10, 0}, {100, 0, 10}, {100, 0, -10}};
+  mesh.elements = {0, 1, 2, 3, 0, 2, 1, 4};
+  WriteTetMesh(temp / "meniscus.vtu", mesh);
+  OpenDropped(state, temp / "meniscus.vtu");
+  Settle(state);
+  ASSERT_EQ(state.dialogs.size(), 1u);
+  const auto dialog = std::get<UnitDialog>(state.dialogs.back());
+  state.dialogs.clear();
+  EXPECT_EQ(dialog.unit, "mm");
+  EXPECT_EQ(dialog.surface->triangles.size(), 6u);
+  ImportSurface(state, dialog.file, *dialog.surface, dialog.unit, dialog.tetrahedra.get());
+  ASSERT_EQ(state.document().scene.tissues.size(), 2u);
+  EXPECT_FALSE(state.document().scene.tissues[1].mesh.empty());
+  app::Run(state, "save");
+  Settle(state);
+  const LoadedScene saved = LoadScene(temp / "knee");
+  const TetMesh own = ReadTetMesh(temp / "knee" / saved.scene.tissues[1].mesh);
+  EXPECT_EQ(own.elements, mesh.elements);
+  ASSERT_EQ(saved.surfaces[1]->vertices.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_LT(glm::distance(own.rest_positions[i], saved.surfaces[1]->vertices[i]), 1e-8)
+        << "m; a surface file holds single precision";
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().scene.tissues.size(), 1u);
+}
+
 TEST_F(Commands, BallsThatHoldATissueAreAddedMovedAndReleasedStepByStep) {
   Open();
   state.tissue = 0;
