@@ -11,18 +11,11 @@
 #include <type_traits>
 #include <utility>
 
+#include "app/panels/option_words.h"
 #include "app/panels/widgets.h"
-#include "app/state/capital.h"
 #include "simulation/core/options.h"
 
 namespace arthro::app {
-
-// "near_relief" as a person reads it: "Near relief".
-inline std::string WordsOfField(std::string name) {
-  for (char& c : name)
-    if (c == '_') c = ' ';
-  return Capital(std::move(name));
-}
 
 struct OptionsPanelVisitor {
   Ui& ui;
@@ -42,14 +35,14 @@ struct OptionsPanelVisitor {
  private:
   template <class T, class R>
   void Show(const char* name, T& field, const R& range, const char* unit, const char* help) {
-    const std::string words = WordsOfField(name);
+    const std::string words = LabelOfField(name);
     const Border border = PersonBorder(unit);
     if constexpr (std::is_enum_v<T>) {
       std::vector<std::string> choices;
       int chosen = -1;
       for (const auto& [value, word] : range.words) {
         if (value == field) chosen = static_cast<int>(choices.size());
-        choices.push_back(word);
+        choices.push_back(LabelOfChoice(name, word));
       }
       if (Combo(ui, words, chosen, choices, help)) {
         field = range.words[static_cast<std::size_t>(chosen)].first;
@@ -71,7 +64,7 @@ struct OptionsPanelVisitor {
            [&] { field = shown / border.factor; });
     } else if constexpr (std::is_same_v<T, int> && std::is_same_v<R, Range>) {
       int shown = field;
-      const std::string format = std::string("%d") + (*unit ? " " : "") + Escaped(unit);
+      const std::string format = std::string("%d") + (*unit ? " " : "") + Escaped(ui.In(unit));
       Note(words,
            SliderInt(ui, words, shown, static_cast<int>(range.min), static_cast<int>(range.max),
                      format.c_str(), help),
@@ -102,8 +95,8 @@ struct OptionsPanelVisitor {
   static double StepOf(double width) { return width > 50 ? 0.1 : 0.01; }
 
   // Decimals that a person can set with the mouse.
-  static std::string Format(const std::string& unit, double width) {
-    const std::string shown = unit == "m" ? "mm" : unit == "rad" ? "°" : Escaped(unit);
+  std::string Format(const std::string& unit, double width) const {
+    const std::string shown = unit == "m" ? "mm" : unit == "rad" ? "°" : Escaped(ui.In(unit));
     const char* number = StepOf(width) == 0.1 ? "%.1f" : "%.2f";
     return std::string(number) + (shown.empty() ? "" : " ") + shown;
   }

@@ -89,8 +89,10 @@ void Draw(Ui& ui, EditorState& state, UnitDialog& dialog) {
   Gap(ui, 2);
   Text(ui, fmt::format("{} does not state its unit. A meniscus is 30 to 45 mm long.",
                        dialog.file.filename().string()));
-  for (const char* unit : {"mm", "cm", "m", "um", "in"}) {
-    if (ToggleButton(ui, unit, dialog.unit == unit, true, {ui.Px(64), 0})) dialog.unit = unit;
+  constexpr std::pair<const char*, const char*> kUnits[] = {
+      {"mm", "mm"}, {"cm", "cm"}, {"m", "m"}, {"um", "µm"}, {"in", "inch"}};
+  for (const auto& [unit, words] : kUnits) {
+    if (ToggleButton(ui, words, dialog.unit == unit, true, {ui.Px(64), 0})) dialog.unit = unit;
     ImGui::SameLine();
   }
   ImGui::NewLine();

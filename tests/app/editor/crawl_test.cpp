@@ -114,9 +114,12 @@ TEST_F(Crawl, EveryOptionOfTheFootagePageIsShownAndTakesBothEnds) {
   Drive("edit " + scene.string(),
         "drop " + frames.string() +
             "\nwait job\nexpect \"Lens of the scope\"\nresize 1280 8000\nwait frames 3\n"
-            "click \"More options\"\nwait frames 2\nclick Features\nwait frames 2\n"
-            "expect Seed\nset \"Seed\" 2147483647\nexpect value Seed 2147483647\n"
-            "set \"Seed\" -7\nexpect value Seed 0\n",
+            "click \"More options\"\nwait frames 2\n"
+            "expect \"Start of the random numbers\"\n"
+            "set \"Start of the random numbers\" 2147483647\n"
+            "expect value \"Start of the random numbers\" 2147483647\n"
+            "set \"Start of the random numbers\" -7\n"
+            "expect value \"Start of the random numbers\" 0\n",
         {{1280, 800}, {640, 480}}, 90);
 }
 

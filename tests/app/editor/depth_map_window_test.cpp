@@ -130,20 +130,20 @@ TEST_F(DepthMapWindow, OptionsThatTheEstimatorDoesNotUseAreGrey) {
   Drive(R"(click "Scope view"
 click "Make depth from the picture"
 click Estimator
-click paper
+click grey
 wait job
 expect enabled "Red weight"
 expect enabled "Colour filter"
-expect disabled Iterations
+expect disabled "Steps of the shading"
 click Estimator
 click shading
 wait job
 expect disabled "Red weight"
 expect disabled "Green weight"
 expect disabled "Colour filter"
-expect disabled Law
+expect disabled "Fall of brightness with distance"
 expect enabled Gamma
-expect enabled Iterations
+expect enabled "Steps of the shading"
 )");
 }
 

@@ -63,7 +63,7 @@ void Bar(Ui& ui, EditorState& state, const Area& area) {
                   board.selected < 0 ? "–" : "%.0f", "Counted from 0, as in reports."))
     SelectFrame(state, static_cast<int>(std::lround(frame)));
   ImGui::SameLine();
-  words(fmt::format("of {}", board.frames()));
+  words(fmt::format("of 0 to {}", std::max(0, board.frames() - 1)));
   if (Button(ui, ">", board.selected + 1 < board.frames(), {ImGui::GetFrameHeight(), 0},
              "Next frame (right arrow)"))
     StepFrame(state, 1);

@@ -11,6 +11,7 @@
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/practice/rig_edit.h"
 #include "simulation/core/units.h"
+#include "simulation/device/driver/wooden_model.h"
 #include "simulation/practice/hands/offered_instruments.h"
 
 namespace arthro::app {
@@ -24,18 +25,31 @@ int IndexOf(std::span<const char* const> words, const std::string& word) {
   return static_cast<int>(std::find(words.begin(), words.end(), word) - words.begin());
 }
 
+// Names for the user of the words of rig files.
+std::string FamilyName(const std::string& word) {
+  if (word == "openhaptics") return "Touch (OpenHaptics)";
+  const auto family = simulation::DeviceFamilyFromString(word);
+  return family ? simulation::Name(*family) : word;
+}
+std::string ModelName(const char* word) {
+  const simulation::WoodenModel* model = simulation::FindWoodenModel(word);
+  return model != nullptr ? model->name : word;
+}
+
 void DeviceFields(Ui& ui, RigEditing& editing, const std::string& hand, RigDevice& device) {
-  std::vector<std::string> models(RigModels().begin(), RigModels().end());
   if (device.family == "wooden_haptics") {
+    std::vector<std::string> models;
+    for (const char* model : RigModels()) models.push_back(ModelName(model));
     int chosen = IndexOf(RigModels(), device.model);
     if (Combo(ui, hand + " arm", chosen, models, "A wrong arm pushes the wrong way.")) {
-      device.model = models[static_cast<std::size_t>(chosen)];
+      device.model = RigModels()[static_cast<std::size_t>(chosen)];
       editing.is_changed = true;
     }
   }
   if (device.family == "razer_hydra") {
     int chosen = device.hand;
-    if (Combo(ui, hand + " side", chosen, {"left", "right"})) {
+    if (Combo(ui, hand + " side", chosen, {"left", "right"},
+              "Which of the two controllers holds this hand.")) {
       device.hand = chosen;
       editing.is_changed = true;
     }
@@ -96,20 +110,23 @@ void TipFields(Ui& ui, RigEditing& editing, TipOffsets& tips) {
 // `role` is what holds this hand; without one, mouse and keys do.
 void HandFields(Ui& ui, RigEditing& editing, const std::string& hand,
                 std::optional<RigRole>& role) {
-  std::vector<std::string> words{"mouse and keys"};
+  std::vector<std::string> families{""}, words{"mouse and keys"};
   for (const char* family : RigFamilies())
-    if (IsHandFamily(family)) words.push_back(family);
+    if (IsHandFamily(family)) {
+      families.emplace_back(family);
+      words.push_back(FamilyName(family));
+    }
   int chosen = 0;
   if (role)
-    chosen = static_cast<int>(std::find(words.begin(), words.end(), role->device.family) -
-                              words.begin());
+    chosen = static_cast<int>(std::find(families.begin(), families.end(), role->device.family) -
+                              families.begin());
   if (Combo(ui, hand, chosen, words, "The device that holds this hand.")) {
     if (chosen == 0) {
       role.reset();
     } else {
       if (!role) role.emplace();
       role->device = {};
-      role->device.family = words[static_cast<std::size_t>(chosen)];
+      role->device.family = families[static_cast<std::size_t>(chosen)];
       if (role->device.family == "wooden_haptics") role->device.model = RigModels().front();
     }
     editing.is_changed = true;
@@ -124,7 +141,7 @@ void DeviceList(Ui& ui, EditorState& state) {
   CommandButton(ui, state, "find-devices", {-FLT_MIN, 0});
   for (const simulation::SurveyedDevice& found : editing.devices) {
     const std::string& serial = found.device.node.serial;
-    Text(ui, fmt::format("{}{}", ToString(found.device.family),
+    Text(ui, fmt::format("{}{}", simulation::Name(found.device.family),
                          serial.empty() ? "" : ", serial " + serial));
     if (HasHand(found.caps)) {
       const glm::dvec3 box = (found.caps.max_hip - found.caps.min_hip) / kMetrePerMillimetre;
@@ -164,7 +181,9 @@ void RigPanel(Ui& ui, EditorState& state) {
   ImGui::SameLine(0, ui.Px(8));
   CommandButton(ui, state, "new-rig", {half, 0});
   if (editing.rig.scope || editing.rig.instrument) {
-    if (TextField(ui, "Title of the rig", editing.rig.title)) editing.is_changed = true;
+    if (TextField(ui, "Title of the rig", editing.rig.title,
+                  "name of this set of devices, such as that of its room"))
+      editing.is_changed = true;
     HandFields(ui, editing, "Scope", editing.rig.scope);
     HandFields(ui, editing, "Instrument", editing.rig.instrument);
     if (editing.rig.instrument) TipFields(ui, editing, editing.rig.instrument->tip_offsets);
