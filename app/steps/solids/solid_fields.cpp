@@ -40,7 +40,8 @@ class PartChange {
 
 void Size(Ui& ui, PartChange& edit, const char* name, double& metres) {
   double mm = MmFromMetres(metres);
-  const Change change = Slider(ui, name, mm, kLeastSize, kMostSize, "%.2f mm");
+  const Change change = Slider(ui, name, mm, kLeastSize, kMostSize, "%.2f mm",
+                               "Size of the chosen part, in its own directions.");
   if (change) metres = MetresFromMm(mm);
   edit.Take(change, "Resize");
 }
@@ -63,7 +64,8 @@ void SizeFields(Ui& ui, PartChange& edit) {
     Size(ui, edit, "Half width, in", box->half.z);
     double mm = MmFromMetres(box->rounding);
     const double most = MmFromMetres(std::min({box->half.x, box->half.y, box->half.z}));
-    const Change change = Slider(ui, "Radius of the edges", mm, 0, most, "%.2f mm");
+    const Change change = Slider(ui, "Radius of the edges", mm, 0, most, "%.2f mm",
+                                 "Rounding of the edges of the box; 0: sharp edges.");
     if (change) box->rounding = std::min(MetresFromMm(mm), MetresFromMm(most));
     edit.Take(change, "Round");
   }
@@ -127,7 +129,7 @@ void SolidFields(Ui& ui, EditorState& state) {
     constexpr const char* kJoins[] = {"+", "∩", "−"};
     const std::string words = fmt::format(
         "{:{}}{} {} {}", "", 3 * place.level,
-        i == 0 ? "  " : kJoins[static_cast<std::size_t>(place.join)], TypeOf(part), i + 1);
+        i == 0 ? "  " : kJoins[static_cast<std::size_t>(place.join)], ui.In(TypeOf(part)), i + 1);
     ImGui::PushID(i);
     const PaddedRow padded(ui);
     if (ImGui::Selectable(words.c_str(), editing.part == i)) editing.part = i;

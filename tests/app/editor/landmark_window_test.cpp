@@ -47,6 +47,10 @@ key escape
 wait frames 3
 expect not "Landmark 1"
 expect "Fit to the relief"
+expect "are kept with the scene"
+click Mesh
+wait frames 3
+expect not "are kept with the scene"
 quit
 )");
 }

@@ -49,7 +49,8 @@ void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind)
   const Buttons buttons = ButtonsOf(kind);
   // Controls that add a ball come first, so that they keep their place while the list grows.
   double mm = MmFromMetres(state.steps.tissue->ball_radius);
-  if (Slider(ui, "Radius of the next ball", mm, 0.2, 15.0, "%.1f mm"))
+  if (Slider(ui, "Radius of the next ball", mm, 0.2, 15.0, "%.1f mm",
+             "Radius of the ball that the next click adds."))
     state.steps.tissue->ball_radius = MetresFromMm(mm);
   CommandToggle(ui, state, buttons.brush, state.steps.tissue->brush == kind, {-FLT_MIN, 0});
   CommandButton(ui, state, buttons.at_instrument, {-FLT_MIN, 0});
@@ -61,7 +62,8 @@ void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind)
   if (!HasChosenBall(state, kind) || chosen >= balls.size()) return;
   Ball ball = balls[chosen];
   mm = MmFromMetres(ball.radius * tissue.pose.scale);
-  const Change change = Slider(ui, "Radius of this ball", mm, 0.2, 15.0, "%.1f mm");
+  const Change change = Slider(ui, "Radius of this ball", mm, 0.2, 15.0, "%.1f mm",
+                               "Radius of the ball that is chosen in the list.");
   if (change) {
     ball.radius = MetresFromMm(mm) / tissue.pose.scale;
     SetBall(state, kind, state.tissue, state.steps.tissue->ball, ball, "Change a ball of");

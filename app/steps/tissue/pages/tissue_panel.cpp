@@ -268,8 +268,10 @@ void TissuePanel(Ui& ui, EditorState& state, const std::function<void()>& below_
     const float page_width = ui.WidthOf(words) + free / static_cast<float>(here);
     if (i != first) ImGui::SameLine(0, ui.Px(4));
     if (ToggleButton(ui, words, state.steps.tissue->page == page, true, {page_width, 0})) {
-      if (state.steps.tissue->page != page)
+      if (state.steps.tissue->page != page) {
         state.steps.tissue->ball = -1;  // it counts the balls of its page
+        state.message.clear();          // it spoke of the page before
+      }
       state.steps.tissue->page = page;
       state.steps.tissue->brush.reset();
       state.steps.tissue->cut_brush.kind = CutBrush::Kind::kNone;
