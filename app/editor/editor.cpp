@@ -83,7 +83,11 @@ class Editor {
       script_.emplace(ParseScript(ReadWholeFile(*options.script), *options.script),
                       window_.scale());
       script_->SetCrawlKeys(KeysOfCrawl(state_));
-      script_->SetActions(ActionsOf(state_));
+      ScriptActions actions = ActionsOf(state_);
+      actions.translated = [this](const std::string& names) {
+        return WordsOfMissing(translation_, names);
+      };
+      script_->SetActions(std::move(actions));
       script_->SetJobLimit(std::chrono::minutes(options.job_minutes));
     }
     Begin();
@@ -143,7 +147,13 @@ class Editor {
     applied_settings_ = state_.settings;
     window_.SetLook(ScaleFrom(options_, state_.settings, window_.monitor()),
                     state_.settings.theme == ThemeChoice::kLight ? Theme::kLight : Theme::kDark);
-    if (is_other_language) translation_ = TranslationFrom(options_, state_.settings);
+    if (is_other_language) {
+      translation_ = TranslationFrom(options_, state_.settings);
+      std::array<std::string, Overview::kLabels.size()> labels;
+      std::transform(Overview::kLabels.begin(), Overview::kLabels.end(), labels.begin(),
+                     [&](const char* label) { return translation_.Of(label); });
+      pictures_.SetOverviewLabels(labels);
+    }
     unsettled_ = std::max(unsettled_, 3);
   }
   // Notes the acts of this frame for the script that is recorded.

@@ -130,6 +130,7 @@ bool HitArea(const char* id, const ImVec2& size, ImGuiButtonFlags flags) {
 void Tooltip(Ui& ui, const char* text, const std::string& keys, const char* why_disabled) {
   if (text == nullptr || *text == '\0') return;
   ui.widgets.NoteTip();
+  ui.In(text);  // Notes a text without translation before anybody points at it.
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsAnyItemActive())
     return;
   // Only after the pointer has rested: tips must not flicker over a list that is swept.

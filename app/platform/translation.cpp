@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -200,6 +202,32 @@ const std::string& Translation::Of(const std::string& english) {
   return known_
       .insert_or_assign(english, english.substr(0, first) + translated + english.substr(last))
       .first->second;
+}
+
+std::string WordsOfMissing(const Translation& translation, const std::string& names) {
+  if (translation.is_english()) return "the window is in English";
+  constexpr std::string_view kUnits = " Mpx mm cm px ms Hz kHz MPa kPa mN rad kB MB GB EN DE CC0 ";
+  std::string list;
+  for (const std::string& text : translation.missing()) {
+    std::string rest = text;
+    std::istringstream lines(names);
+    for (std::string name; std::getline(lines, name);)
+      for (std::size_t at = rest.find(name); at != std::string::npos && !name.empty();
+           at = rest.find(name))
+        rest.replace(at, name.size(), " ");
+    std::istringstream words(rest);
+    const bool is_missing =
+        std::any_of(std::istream_iterator<std::string>(words), {}, [&](const std::string& word) {
+          const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)); };
+          const auto first = std::find_if(word.begin(), word.end(), is_letter);
+          const auto last = std::find_if(word.rbegin(), word.rend(), is_letter).base();
+          const bool is_file = word.find('/') != std::string::npos;
+          return last - first > 1 && !is_file &&
+                 kUnits.find(" " + std::string(first, last) + " ") == std::string_view::npos;
+        });
+    if (is_missing) list += "\n  " + text;
+  }
+  return list.empty() ? "" : "these texts have no translation:" + list;
 }
 
 std::string Translation::Label(const std::string& name) {

@@ -53,4 +53,8 @@ class Translation {
   std::set<std::string> missing_;
 };
 
+// Sentence that lists the missing texts; "" where there are none. `names`: names of the data, one
+// per line, which are the same in every language, as are units, numbers and file names.
+std::string WordsOfMissing(const Translation& translation, const std::string& names);
+
 }  // namespace arthro::app

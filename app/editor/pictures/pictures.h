@@ -45,6 +45,9 @@ class Pictures {
   // user is busy elsewhere. True when it is not up to date yet.
   bool DrawOverview(EditorState& state, int width, int height);
   unsigned overview_texture() const { return has_overview_ ? overview_.TextureId() : 0; }
+  void SetOverviewLabels(const std::array<std::string, Overview::kLabels.size()>& words) {
+    overview_.SetLabels(words);
+  }
   // Turns the overview or, on its handle, moves the chosen tissue. `scale`: of the window.
   void HandleOverview(EditorState& state, const OverviewInput& input, double scale = 1.0);
   std::optional<glm::dvec2> handle() const {

@@ -161,6 +161,9 @@ ScriptLine LineFromWords(const std::vector<std::string>& words, int number,
     want(3, "wait frames N, or wait job");
     line.verb = ScriptVerb::kWaitFrames;
     line.x = number_at(2);
+  } else if (verb == "expect" && words.size() >= 2 && words[1] == "translated") {
+    line.verb = ScriptVerb::kExpectTranslated;
+    for (std::size_t i = 2; i < words.size(); ++i) line.text += words[i] + '\n';
   } else if (verb == "expect" && words.size() == 2 && words[1] == "tips") {
     line.verb = ScriptVerb::kExpectTips;
   } else if (verb == "expect" && words.size() == 2) {

@@ -10,6 +10,7 @@
 //   mark NAME (what --timing counts the frames from here on under; "" ends it)
 //   expect TEXT · expect not TEXT · expect value NAME TEXT · expect enabled|disabled NAME
 //   expect focus NAME · expect tips (of every slider, field and list in sight)
+//   expect translated NAME … (every text asked for so far; NAMEs of the data need no entry)
 //   walk (Tab, until every control in sight had the focus) · drop FILE · resize WIDTH HEIGHT ·
 //   crawl SEED ACTIONS (crawler.h) · close · quit
 // A name or text with blanks stands in double quotes; # begins a comment. NAME#2 is the second item
@@ -54,6 +55,7 @@ enum class ScriptVerb {
   kWalk,
   kExpectFocus,
   kExpectTips,
+  kExpectTranslated,
   kClose,
   kQuit
 };
@@ -61,7 +63,8 @@ enum class ScriptVerb {
 struct ScriptLine {
   int number = 0;  // in the file, from 1
   ScriptVerb verb = ScriptVerb::kQuit;
-  std::string name, text;  // name of an item; text that is typed or expected, or a file
+  // Name of an item; text that is typed or expected, a file, or the names of data, one per line.
+  std::string name, text;
   double x = 0, y = 0;  // drag, click from the middle, wheel (y), frames (x), size, seed and steps
   bool right_button = false;
   int button = 0;  // button of a stroke: 0 left, 1 right, 2 middle

@@ -157,6 +157,8 @@ void ScriptRunner::Act(const ScriptLine& line) {
   if (line.verb == ScriptVerb::kChoose && actions_.choose) failure = actions_.choose(line.text);
   if (line.verb == ScriptVerb::kPose && actions_.pose)
     failure = actions_.pose(line.name == "scope", line.numbers);
+  if (line.verb == ScriptVerb::kExpectTranslated && actions_.translated)
+    failure = actions_.translated(line.text);
   if (!failure.empty()) Fail(line, failure);
 }
 
@@ -256,6 +258,7 @@ void ScriptRunner::Run(const ScriptLine& line, WidgetRegistry& widgets, bool bus
     case ScriptVerb::kDo:
     case ScriptVerb::kChoose:
     case ScriptVerb::kPose:
+    case ScriptVerb::kExpectTranslated:
       Act(line);
       break;
     case ScriptVerb::kSet:

@@ -25,6 +25,8 @@ struct ScriptActions {
   std::function<std::string(const std::filesystem::path& file)> choose;
   // Depth in m, latitude, longitude and roll in rad.
   std::function<std::string(bool of_scope, const std::vector<double>& pose)> pose;
+  // `names`: names of the data, one per line, which need no translation.
+  std::function<std::string(const std::string& names)> translated = {};
 };
 
 class ScriptRunner {

@@ -47,8 +47,10 @@ bool FinishFilm(EditorState& state) {
   if (!film.HasEnded()) return false;
   state.steps.practice->film_words = film.fault();
   if (film.fault().empty()) {
-    state.steps.practice->film_words = fmt::format(
-        "The {} in {}", film.is_pictures() ? "pictures are" : "film is", film.file().string());
+    const std::string file = film.file().string();
+    state.steps.practice->film_words = film.is_pictures()
+                                           ? fmt::format("The pictures are in {}", file)
+                                           : fmt::format("The film is in {}", file);
     state.steps.practice->film_words +=
         film.left_out() == 0 ? "." : fmt::format("; {} pictures were left out.", film.left_out());
   }

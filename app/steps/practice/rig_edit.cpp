@@ -83,7 +83,8 @@ bool MayUseRig(const EditorState& state) {
 void UseRig(EditorState& state) {
   try {
     Hold(state, simulation::ReadHands(RigOf(state).file, ""));
-    Tell(state, "The rig \"" + RigOf(state).rig.title + "\" holds the hands of practices.");
+    Tell(state,
+         fmt::format("The rig \"{}\" holds the hands of practices.", RigOf(state).rig.title));
   } catch (const Error& error) {
     Tell(state, error.what(), true);
   }
@@ -105,10 +106,10 @@ void FindDevices(EditorState& state) {
     return [survey](EditorState& now) {  // shared only because a std::function is copied
       RigEditing& editing = RigOf(now);
       editing.devices = survey->devices;
-      Tell(now, editing.devices.empty()
-                    ? "No known device is plugged in."
-                    : fmt::format("{} known device{} plugged in.", editing.devices.size(),
-                                  editing.devices.size() == 1 ? " is" : "s are"));
+      Tell(now, editing.devices.empty() ? "No known device is plugged in."
+                : editing.devices.size() == 1
+                    ? "1 known device is plugged in."
+                    : fmt::format("{} known devices are plugged in.", editing.devices.size()));
     };
   });
 }

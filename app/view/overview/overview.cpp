@@ -107,13 +107,12 @@ void Overview::Parts::BuildScene() {
 
   // Axes of the portal frame, below everything.
   const glm::dvec3 origin{-0.016, 0.034, 0.0};
-  const char* names[3] = {"x right", "y down", "z in"};
   for (int i = 0; i < 3; ++i) {
     glm::dvec3 end = origin;
     end[i] += kAxisLength;
     auto axis = MakeActor(kAxisColours[i], 0.6);
     SetData(*axis, MakeBars({{origin, end}}, 2 * kLineRadius));
-    auto label = MakeLabel(names[i], kAxisColours[i]);
+    auto label = MakeLabel(Overview::kLabels[2 + static_cast<std::size_t>(i)], kAxisColours[i]);
     label->SetPosition(end.x, end.y, end.z);
     // Away from the other two.
     vtkTextProperty* text = label->GetTextProperty();
@@ -124,6 +123,11 @@ void Overview::Parts::BuildScene() {
     renderer->AddActor(label);
     labels.push_back(label);
   }
+}
+
+void Overview::SetLabels(const std::array<std::string, kLabels.size()>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) parts_->labels[i]->SetInput(words[i].c_str());
+  parts_->changed = true;
 }
 
 Overview::Overview() : parts_(std::make_unique<Parts>()) {

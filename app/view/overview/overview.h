@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "app/view/drawing/picture.h"
@@ -62,6 +63,10 @@ class Overview {
                         std::span<const std::uint8_t> fresh = {});
   void SetIncisionSpacing(double spacing);
   void SetTools(const OverviewTools& tools);
+  // Words of the labels in another language, in the order of kLabels.
+  static constexpr std::array<const char*, 5> kLabels = {"scope", "instrument", "x right", "y down",
+                                                         "z in"};
+  void SetLabels(const std::array<std::string, kLabels.size()>& words);
 
   // Puts the box around a tissue; -1 removes it. A left drag that begins on its handle, in the
   // middle of the box, moves it across the picture, with Shift or Control turns it; a right drag

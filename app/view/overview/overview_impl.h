@@ -53,9 +53,10 @@ struct Overview::Parts {
   vtkSmartPointer<vtkActor> moving = MakeActor({0.70, 0.70, 0.72});
   vtkSmartPointer<vtkActor> scope_portal = MakeActor(kScopeColour, 0.5);
   vtkSmartPointer<vtkActor> instrument_portal = MakeActor(kInstrumentColour, 0.5);
-  vtkSmartPointer<vtkBillboardTextActor3D> scope_label = MakeLabel("scope", kScopeColour);
+  vtkSmartPointer<vtkBillboardTextActor3D> scope_label =
+      MakeLabel(Overview::kLabels[0], kScopeColour);
   vtkSmartPointer<vtkBillboardTextActor3D> instrument_label =
-      MakeLabel("instrument", kInstrumentColour);
+      MakeLabel(Overview::kLabels[1], kInstrumentColour);
   std::vector<vtkSmartPointer<vtkBillboardTextActor3D>> labels;  // all of them
   double label_scale = 1;  // pixels of the picture per pixel at scale 1
 

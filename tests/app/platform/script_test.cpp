@@ -41,6 +41,13 @@ TEST(Script, AMistakeIsToldWithItsLine) {
   }
 }
 
+TEST(Script, NamesOfDataThatNeedNoTranslationAreRead) {
+  const auto lines = ParseScript("expect translated\nexpect translated \"my knee\" probe\n");
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].verb, ScriptVerb::kExpectTranslated);
+  EXPECT_EQ(lines[1].text, "my knee\nprobe\n");
+}
+
 TEST(Script, AWordThatIsWrittenIsReadAgain) {
   for (const std::string word : {"Save", "Save as…", "a \"b\" \\ c", "x#2", "", " "}) {
     const auto lines = ParseScript("set Title " + ScriptWord(word));

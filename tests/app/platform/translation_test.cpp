@@ -75,6 +75,16 @@ TEST(Translation, ALabelKeepsTheIdentityOfItsEnglishName) {
   EXPECT_EQ(Translation().Label("Save##2"), "Save##2");
 }
 
+TEST(Translation, WhatIsMissingIsListedWithoutNamesUnitsAndFiles) {
+  Translation german = German();
+  for (const char* text : {"Save", "my knee", "12.5 mm", "/tmp/knee/scene.json", "a knee of 3 kB"})
+    german.Of(text);
+  EXPECT_EQ(WordsOfMissing(german, "my knee\n"),
+            "these texts have no translation:\n  a knee of 3 kB");
+  EXPECT_EQ(WordsOfMissing(german, "my knee\na knee of\n"), "");
+  EXPECT_NE(WordsOfMissing(Translation(), ""), "") << "English lacks nothing, and tells nothing";
+}
+
 TEST(Translation, AMistakeInATableIsToldWithItsLine) {
   for (const char* text : {"\nmsgid \"a\nmsgstr \"b\"", "msgid \"a\"\nmsgid_plural \"b\""}) {
     try {

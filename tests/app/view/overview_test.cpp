@@ -144,6 +144,19 @@ TEST_F(OverviewTest, LabelsGrowWithTheInterfaceScale) {
   EXPECT_FALSE(overview_->Render(kLarge, kLarge));
 }
 
+TEST_F(OverviewTest, LabelsAreWrittenInTheWordsOfTheLanguage) {
+  overview_->Render(kOverviewSize, kOverviewSize);
+  const ColourImage english = overview_->ReadPixels();
+  overview_->SetLabels({"Optik", "Instrument", "x rechts", "y unten", "z innen"});
+  EXPECT_TRUE(overview_->Render(kOverviewSize, kOverviewSize)) << "drawn anew";
+  EXPECT_NE(overview_->ReadPixels().rgb, english.rgb);
+  std::array<std::string, Overview::kLabels.size()> words;
+  std::copy(Overview::kLabels.begin(), Overview::kLabels.end(), words.begin());
+  overview_->SetLabels(words);
+  overview_->Render(kOverviewSize, kOverviewSize);
+  EXPECT_EQ(overview_->ReadPixels().rgb, english.rgb);
+}
+
 TEST_F(OverviewTest, DraggingTheCentreOfTheBoxMovesOnlyTheTissue) {
   overview_->ChooseTissue(0);
   overview_->Render(kOverviewSize, kOverviewSize);

@@ -24,6 +24,12 @@ struct Entry {
   bool is_chosen;
 };
 void Toggles(Ui& ui, EditorState& state, int columns, std::initializer_list<Entry> entries) {
+  float widest = 0;
+  for (const Entry& entry : entries)
+    widest = std::max(widest, ui.WidthOf(CommandOf(state, entry.command).words));
+  // Words of another language may be longer.
+  while (columns > 1 && ColumnWidth(columns) < widest + 2 * ImGui::GetStyle().FramePadding.x)
+    --columns;
   const float part = ColumnWidth(columns);
   int place = 0;
   for (const Entry& entry : entries) {

@@ -138,9 +138,10 @@ void Instruments(Ui& ui, EditorState& state) {
   const double removed = Taken(state);
   int debris = 0;
   for (const auto& body : world->bodies) debris += body.cut.debris;
-  Text(ui, debris == 0 ? fmt::format("{:.1f} mm³ removed", removed * 1e9)
-                       : fmt::format("{:.1f} mm³ removed, {} loose piece{}", removed * 1e9, debris,
-                                     debris == 1 ? "" : "s"));
+  const double mm3 = removed * 1e9;
+  Text(ui, debris == 0   ? fmt::format("{:.1f} mm³ removed", mm3)
+           : debris == 1 ? fmt::format("{:.1f} mm³ removed, 1 loose piece", mm3)
+                         : fmt::format("{:.1f} mm³ removed, {} loose pieces", mm3, debris));
   for (const auto& body : world->bodies) TakenByRegion(ui, state, body);
 }
 
@@ -161,7 +162,8 @@ void FilmMark(Ui& ui, const EditorState& state, float top) {
       {corner.x - ui.Px(11), corner.y + 0.5f * ImGui::GetTextLineHeight()}, ui.Px(6), kBad);
   if (const int left_out = state.steps.practice->film->left_out(); left_out > 0) {
     ImGui::SetCursorPosX(left);
-    QuietText(ui, fmt::format("{} picture{} left out", left_out, left_out == 1 ? "" : "s"));
+    QuietText(ui, left_out == 1 ? std::string("1 picture left out")
+                                : fmt::format("{} pictures left out", left_out));
   }
   ImGui::SetCursorPos(back);
 }

@@ -75,10 +75,7 @@ void LandmarkFields(Ui& ui, EditorState& state) {
   CommandButton(ui, state, "align-landmarks", {-FLT_MIN, ui.Px(32)});
   Rows(ui, state);
   Result(ui, state.steps.tissue->landmarks);
-  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
-  CommandButton(ui, state, "remove-landmark", {half, 0});
-  ImGui::SameLine(0, ui.Px(8));
-  CommandButton(ui, state, "remove-all-landmarks", {half, 0});
+  CommandRow(ui, state, {{"remove-landmark"}, {"remove-all-landmarks"}});
   bool solves_scale = state.steps.tissue->landmarks.solves_scale;
   if (Checkbox(ui, "Solve for the scale", solves_scale,
                "Needed where the model has another size than the patient's tissue."))
