@@ -69,8 +69,8 @@ std::string TitleOf(const EditorState& state) {
 }
 
 ScriptActions ActionsOf(EditorState& state) {
-  return {[&state](const std::string& command, const std::filesystem::path& file) {
-            return RunByName(state, command, file);
+  return {[&state](const std::string& command, const std::vector<std::string>& arguments) {
+            return RunByName(state, command, arguments);
           },
           [&state](const std::filesystem::path& file) { return ChooseFile(state, file); },
           [&state](bool of_scope, const std::vector<double>& pose) -> std::string {

@@ -6,6 +6,7 @@
 #include "app/state/command.h"
 #include "app/state/edits.h"
 #include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
 
 namespace arthro::app {
 namespace {
@@ -148,6 +149,21 @@ constexpr Command kFileCommands[] = {
      {},
      Idle,
      OpenHistory},
+    {"keep-snapshot",
+     "Keep snapshot",
+     "Save the scene and keep it under a name.",
+     "Edit",
+     {},
+     {},
+     HasPictureAndTime,
+     OpenHistory,
+     "",
+     "NAME",
+     [](State& state, const CommandArguments& arguments) {
+       if (arguments.size() != 1 || arguments.front().empty())
+         throw Error(Code::kBadArgument, "write one name after it");
+       KeepSnapshotOf(state, arguments.front());
+     }},
 };
 
 }  // namespace

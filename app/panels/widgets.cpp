@@ -104,6 +104,7 @@ void RecordItem(Ui& ui, const std::string& name, bool enabled, const std::string
   record.name = name;
   record.x0 = std::max(low.x, clip.Min.x), record.y0 = std::max(low.y, clip.Min.y);
   record.x1 = std::min(high.x, clip.Max.x), record.y1 = std::min(high.y, clip.Max.y);
+  record.is_cut = low.x < clip.Min.x - 1 || high.x > clip.Max.x + 1;
   record.visible = record.x1 > record.x0 && record.y1 > record.y0;
   record.enabled = enabled && (GImGui->LastItemData.InFlags & ImGuiItemFlags_Disabled) == 0;
   record.value = value;

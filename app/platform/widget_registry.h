@@ -30,6 +30,7 @@ struct WidgetRecord {
   unsigned id = 0;        // ImGui's; 0: it takes no keyboard focus
   bool focused = false;   // the keyboard acts on it
   bool has_tip = false;
+  bool is_cut = false;  // its left or right end lies outside of what is shown of its panel
 };
 
 // Is it worked by the keyboard, once it has the focus?

@@ -1,9 +1,15 @@
 #include "app/state/command.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include "simulation/core/error.h"
 
 namespace arthro::app {
 
@@ -80,5 +86,32 @@ void Run(EditorState& state, const Command& command) {
 }
 
 void Run(EditorState& state, std::string_view id) { Run(state, CommandOf(state, id)); }
+
+void Run(EditorState& state, std::string_view id, const CommandArguments& arguments,
+         const std::string& item) {
+  const Command& command = CommandOf(state, id);
+  if (!command.enabled(state) || command.run_with == nullptr) return;
+  RecordCommand(state.record, command.id, item.empty() ? command.words : item, arguments);
+  Guarded(state, command.words, [&] { command.run_with(state, arguments); });
+}
+
+std::vector<double> NumbersOf(const CommandArguments& arguments, const char* form) {
+  const std::string_view words = form;
+  const auto count = static_cast<std::size_t>(std::count(words.begin(), words.end(), ' ')) + 1;
+  std::vector<double> numbers;
+  for (const std::string& argument : arguments) {
+    double value = 0;
+    const char* const end = argument.data() + argument.size();
+    const auto [rest, error] = std::from_chars(argument.data(), end, value);
+    if (error != std::errc() || rest != end || !std::isfinite(value))
+      throw Error(Code::kBadArgument,
+                  fmt::format("\"{}\" is not a number; write {}", argument, form));
+    numbers.push_back(value);
+  }
+  if (numbers.size() != count)
+    throw Error(Code::kBadArgument,
+                fmt::format("{} numbers are given; write {}", numbers.size(), form));
+  return numbers;
+}
 
 }  // namespace arthro::app

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/state/editor_state.h"
 
@@ -17,6 +18,8 @@ struct Shortcut {
 };
 std::string WordsOf(const Shortcut& shortcut);  // "Ctrl+Shift+S"
 
+using CommandArguments = std::vector<std::string>;
+
 struct Command {
   const char* id;     // "save-as"
   const char* words;  // on its button: "Save as…"
@@ -27,7 +30,13 @@ struct Command {
   void (*run)(EditorState&);
   // Sentence that says why it cannot be called, where nothing else stands in its way.
   const char* needs = "";
+  // What a script may write after its name ("LEFT TOP RIGHT BOTTOM"), and what it does with that.
+  // `run_with` throws Error(kBadArgument) for arguments of another form. "": only a file.
+  const char* arguments = "";
+  void (*run_with)(EditorState&, const CommandArguments&) = nullptr;
 };
+// Numbers of an argument list of this form, one for each word of it. Throws Error(kBadArgument).
+std::vector<double> NumbersOf(const CommandArguments& arguments, const char* form);
 
 const Command& CommandOf(const EditorState& state,
                          std::string_view id);  // throws for an unknown id
@@ -45,6 +54,10 @@ const char* WhyDisabled(const EditorState& state, const Command& command);
 // Runs it if it is enabled. An Error becomes a dialog with its sentence.
 void Run(EditorState& state, const Command& command);
 void Run(EditorState& state, std::string_view id);
+// The same with arguments. `item`: name of the window's item that was used for it, if not the
+// command's own words: a record of the session then notes the command in place of the click.
+void Run(EditorState& state, std::string_view id, const CommandArguments& arguments,
+         const std::string& item = "");
 
 // Runs `action`; an Error becomes a dialog titled `title`, a cancelled job a message.
 void Guarded(EditorState& state, const std::string& title, const std::function<void()>& action);

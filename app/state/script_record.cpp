@@ -13,9 +13,12 @@ namespace arthro::app {
 
 namespace fs = std::filesystem;
 
-void RecordCommand(ScriptRecord& record, const std::string& id, const std::string& words) {
+void RecordCommand(ScriptRecord& record, const std::string& id, const std::string& words,
+                   const std::vector<std::string>& arguments) {
   if (!record.is_on || id.ends_with("-script")) return;  // the record's own
-  record.pending.push_back("do " + ScriptWord(id));
+  std::string line = "do " + ScriptWord(id);
+  for (const std::string& argument : arguments) line += " " + ScriptWord(argument);
+  record.pending.push_back(std::move(line));
   record.command_words.push_back(words);
 }
 
@@ -106,18 +109,28 @@ std::string WordsOf(const Dialog& dialog) {
 
 }  // namespace
 
-std::string RunByName(EditorState& state, const std::string& id, const fs::path& file) {
+std::string RunByName(EditorState& state, const std::string& id,
+                      const std::vector<std::string>& arguments) {
   for (const Command& command : state.commands) {
     if (id != command.id) continue;
     if (!state.dialogs.empty())
       return fmt::format("\"{}\" waits for {}", id, WordsOf(state.dialogs.back()));
     if (!command.enabled(state))
       return fmt::format("\"{}\" cannot be called now. {}", id, WhyNot(state, command));
+    if (!arguments.empty() && command.run_with != nullptr) {
+      Run(state, id, arguments);
+      if (state.dialogs.empty() || !std::holds_alternative<ErrorDialog>(state.dialogs.back()))
+        return "";
+      const std::string sentence = std::get<ErrorDialog>(state.dialogs.back()).sentence;
+      state.dialogs.pop_back();
+      return fmt::format("\"{}\": {}", id, sentence);
+    }
+    if (arguments.size() > 1) return fmt::format("\"{}\" takes no more than a file", id);
     Run(state, command);
-    if (file.empty()) return "";
+    if (arguments.empty()) return "";
     if (!state.dialogs.empty() && !std::holds_alternative<BrowseDialog>(state.dialogs.back()))
       return fmt::format("\"{}\" waits for {}", id, WordsOf(state.dialogs.back()));
-    return ChooseFile(state, file);
+    return ChooseFile(state, arguments.front());
   }
   return fmt::format("there is no command \"{}\"; `arthroscene run --list` names them", id);
 }

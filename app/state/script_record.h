@@ -20,16 +20,18 @@ struct ScriptRecord {
   std::vector<std::string> command_words;
 };
 
-void RecordCommand(ScriptRecord& record, const std::string& id, const std::string& words);
+void RecordCommand(ScriptRecord& record, const std::string& id, const std::string& words,
+                   const std::vector<std::string>& arguments = {});
 // The file that was chosen in a file dialog, or dropped on the window.
 void RecordFile(ScriptRecord& record, const char* verb, const std::filesystem::path& file);
 
 // Begins a record at a known place: the first page, both views, the scene as it is on disk.
 void BeginRecord(EditorState& state);
 
-// Runs a command by its id, as a script does, and hands `file` to the file dialog that it opens.
-// Gives back why it was not done, or "".
-std::string RunByName(EditorState& state, const std::string& id, const std::filesystem::path& file);
+// Runs a command by its id, as a script does, with its arguments; one that takes none hands the
+// first to the file dialog that it opens. Gives back why it was not done, or "".
+std::string RunByName(EditorState& state, const std::string& id,
+                      const std::vector<std::string>& arguments);
 // Chooses a file or folder in the file dialog that is open, and replaces what is there. Gives back
 // why it was not done, or "".
 std::string ChooseFile(EditorState& state, const std::filesystem::path& file);

@@ -17,6 +17,18 @@ std::string KeysPage() {
     for (const KeyRow& row : group.rows) page += fmt::format("| {} | {} |\n", row.keys, row.words);
     if (!group.note.empty()) page += "\n" + group.note + "\n";
   }
+  page +=
+      "\n## Commands that take arguments in a script\n\n`do` runs a command by its name. "
+      "`arthroscene run --list` names all of them. Pixels are those of the\npanorama, and of a raw "
+      "frame for `mask` and the first point of `tie`.\n\n| line of a script | effect "
+      "|\n|---|---|\n";
+  for (const Command& command : AllCommands()) {
+    if (*command.arguments == '\0') continue;
+    std::string form = command.arguments;
+    for (std::size_t at = 0; (at = form.find('|', at)) != std::string::npos; at += 2)
+      form.insert(at, 1, '\\');
+    page += fmt::format("| `do {} {}` | {} |\n", command.id, form, command.help);
+  }
   return page;
 }
 

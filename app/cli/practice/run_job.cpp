@@ -24,7 +24,11 @@ constexpr int kOwnWidth = 3840, kOwnHeight = 2160;
 constexpr int kJobMinutes = 120;  // panoramas of long clips
 
 void ListCommands() {
-  for (const Command& command : AllCommands()) std::printf("%-24s %s\n", command.id, command.help);
+  for (const Command& command : AllCommands()) {
+    const std::string form =
+        command.id + std::string(*command.arguments == '\0' ? "" : " ") + command.arguments;
+    std::printf("%-24s %s\n", form.c_str(), command.help);
+  }
 }
 
 }  // namespace

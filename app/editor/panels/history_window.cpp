@@ -94,7 +94,7 @@ void HistoryWindow(Ui& ui, EditorState& state, HistoryDialog& dialog,
   const std::string name = dialog.snapshot;
   state.dialogs.pop_back();  // before the work, which may put up another one
   if (version) Guarded(state, "History", [&] { ReturnToVersion(state, chosen); });
-  if (keep) Guarded(state, "Snapshot", [&] { KeepSnapshotOf(state, name); });
+  if (keep) Run(state, "keep-snapshot", {name});
 }
 
 }  // namespace arthro::app

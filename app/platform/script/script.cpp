@@ -127,10 +127,10 @@ ScriptLine LineFromWords(const std::vector<std::string>& words, int number,
     read_tail(2, line, kForm);
     if (line.numbers.empty() || line.numbers.size() % 2 != 0) want(0, kForm);
   } else if (verb == "do") {
-    if (words.size() != 3) want(2, "do COMMAND [FILE]");
+    if (words.size() < 2) want(2, "do COMMAND [FILE | ARGUMENTS]");
     line.verb = ScriptVerb::kDo;
     line.name = words[1];
-    if (words.size() == 3) line.text = words[2];
+    line.arguments.assign(words.begin() + 2, words.end());
   } else if (verb == "pose") {
     constexpr const char* kForm = "pose scope|instrument DEPTH LATITUDE LONGITUDE ROLL";
     want(6, kForm);
@@ -166,6 +166,8 @@ ScriptLine LineFromWords(const std::vector<std::string>& words, int number,
     for (std::size_t i = 2; i < words.size(); ++i) line.text += words[i] + '\n';
   } else if (verb == "expect" && words.size() == 2 && words[1] == "tips") {
     line.verb = ScriptVerb::kExpectTips;
+  } else if (verb == "expect" && words.size() == 2 && words[1] == "layout") {
+    line.verb = ScriptVerb::kExpectLayout;
   } else if (verb == "expect" && words.size() == 2) {
     line.verb = ScriptVerb::kExpect;
     line.text = words[1];

@@ -3,7 +3,8 @@
 //   click | double-click | right-click | hover NAME [DX DY] (its middle, or px at scale 1 from it)
 //   drag NAME DX DY [right] (pixels at scale 1) · wheel NAME NOTCHES [DX DY] [shift] [ctrl]
 //   stroke NAME [right|middle] [shift] [ctrl] X Y X Y … (one point per frame, px from its middle)
-//   do COMMAND [FILE] (`arthroscene run --list`) · choose FILE (in the file dialog that is open)
+//   do COMMAND [FILE | ARGUMENTS] (`arthroscene run --list` names them)
+//   choose FILE (in the file dialog that is open)
 //   pose scope|instrument DEPTH LATITUDE LONGITUDE ROLL (m, rad)
 //   type TEXT · key ctrl+shift+s · hold KEY FRAMES · set NAME VALUE (a slider, by typing)
 //   wait frames N · wait job · shot FILE.png · shot-trainee FILE.png
@@ -11,6 +12,7 @@
 //   expect TEXT · expect not TEXT · expect value NAME TEXT · expect enabled|disabled NAME
 //   expect focus NAME · expect tips (of every slider, field and list in sight)
 //   expect translated NAME … (every text asked for so far; NAMEs of the data need no entry)
+//   expect layout (no control in sight is cut off at its sides or lies over another)
 //   walk (Tab, until every control in sight had the focus) · drop FILE · resize WIDTH HEIGHT ·
 //   crawl SEED ACTIONS (crawler.h) · close · quit
 // A name or text with blanks stands in double quotes; # begins a comment. NAME#2 is the second item
@@ -56,6 +58,7 @@ enum class ScriptVerb {
   kExpectFocus,
   kExpectTips,
   kExpectTranslated,
+  kExpectLayout,
   kClose,
   kQuit
 };
@@ -69,7 +72,8 @@ struct ScriptLine {
   bool right_button = false;
   int button = 0;  // button of a stroke: 0 left, 1 right, 2 middle
   bool shift = false, ctrl = false;
-  std::vector<double> numbers;  // points of a stroke, numbers of a pose
+  std::vector<double> numbers;         // points of a stroke, numbers of a pose
+  std::vector<std::string> arguments;  // of a command
 };
 
 // Throws Error(kBadData) with the line's number.

@@ -1,5 +1,6 @@
 #include "app/platform/script/script_runner.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <GLFW/glfw3.h>
@@ -151,9 +152,30 @@ void ScriptRunner::ExpectTips(const ScriptLine& line, const WidgetRegistry& widg
   if (!bare.empty()) Fail(line, "these have no tip: " + bare);
 }
 
+void ScriptRunner::ExpectLayout(const ScriptLine& line, const WidgetRegistry& widgets) {
+  constexpr double kSlack = 2;  // px at scale 1; borders of neighbours may touch
+  std::vector<const WidgetRecord*> controls;
+  std::string cut, over;
+  for (const WidgetRecord& widget : widgets.widgets()) {
+    const bool is_control =
+        widget.kind != WidgetKind::kPicture && widget.kind != WidgetKind::kShown;
+    if (!widget.visible || !widget.reachable || !is_control) continue;
+    if (widget.is_cut) cut += (cut.empty() ? "" : ", ") + widget.name;
+    for (const WidgetRecord* other : controls)
+      if (std::min(widget.x1, other->x1) - std::max(widget.x0, other->x0) > kSlack * scale_ &&
+          std::min(widget.y1, other->y1) - std::max(widget.y0, other->y0) > kSlack * scale_)
+        over += (over.empty() ? "" : ", ") + other->name + " and " + widget.name;
+    controls.push_back(&widget);
+  }
+  if (controls.empty()) Fail(line, "there are no controls");
+  if (!cut.empty()) Fail(line, "these are cut off: " + cut);
+  if (!over.empty()) Fail(line, "these lie over each other: " + over);
+}
+
 void ScriptRunner::Act(const ScriptLine& line) {
   std::string failure = "a script can do this only in the editor's window";
-  if (line.verb == ScriptVerb::kDo && actions_.run) failure = actions_.run(line.name, line.text);
+  if (line.verb == ScriptVerb::kDo && actions_.run)
+    failure = actions_.run(line.name, line.arguments);
   if (line.verb == ScriptVerb::kChoose && actions_.choose) failure = actions_.choose(line.text);
   if (line.verb == ScriptVerb::kPose && actions_.pose)
     failure = actions_.pose(line.name == "scope", line.numbers);
@@ -309,6 +331,9 @@ void ScriptRunner::Run(const ScriptLine& line, WidgetRegistry& widgets, bool bus
       break;
     case ScriptVerb::kExpectFocus:
       if (!target->focused) Fail(line, fmt::format("\"{}\" has no focus", line.name));
+      break;
+    case ScriptVerb::kExpectLayout:
+      ExpectLayout(line, widgets);
       break;
     case ScriptVerb::kExpectTips:
       ExpectTips(line, widgets);

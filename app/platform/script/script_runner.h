@@ -21,7 +21,8 @@ enum class ScriptState { kRunning, kFinished, kFailed };
 
 // Acts of lines that go past the window's items. Each gives back why it failed, or "".
 struct ScriptActions {
-  std::function<std::string(const std::string& command, const std::filesystem::path& file)> run;
+  std::function<std::string(const std::string& command, const std::vector<std::string>& arguments)>
+      run;
   std::function<std::string(const std::filesystem::path& file)> choose;
   // Depth in m, latitude, longitude and roll in rad.
   std::function<std::string(bool of_scope, const std::vector<double>& pose)> pose;
@@ -58,6 +59,7 @@ class ScriptRunner {
   void GoOnWithStroke(InputQueue& input);
   void Act(const ScriptLine& line);
   void Walk(const WidgetRegistry& widgets, InputQueue& input);
+  void ExpectLayout(const ScriptLine& line, const WidgetRegistry& widgets);
   void ExpectTips(const ScriptLine& line, const WidgetRegistry& widgets);
   const WidgetRecord* Target(const ScriptLine& line, const WidgetRegistry& widgets);
   void Crawl(const WidgetRegistry& widgets, InputQueue& input);

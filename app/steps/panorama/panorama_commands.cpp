@@ -1,9 +1,14 @@
 // Import a panorama, or make one from footage.
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include <GLFW/glfw3.h>
 
+#include "app/state/edits.h"
+#include "app/steps/panorama/adjust_board.h"
 #include "app/steps/panorama/footage_work.h"
+#include "simulation/core/error.h"
 
 namespace arthro::app {
 namespace {
@@ -14,6 +19,63 @@ const std::vector<FileFilter>& PictureFilters() {
   static const std::vector<FileFilter> filters = {
       {"Pictures", {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"}}, {"All files", {}}};
   return filters;
+}
+
+template <AdjustTool tool>
+void UseTool(State& state) {
+  state.step = Step::kPanorama;
+  SetAdjustTool(state, tool);
+}
+
+// As the two points say that the tool would be given by the mouse, px of the panorama.
+void AdjustBetween(State& state, AdjustTool tool, const glm::dvec2& from, const glm::dvec2& to) {
+  AdjustBoard& board = state.steps.panorama->adjust;
+  board.tool = tool;
+  board.from = from;
+  board.to = to;
+  try {
+    ApplyAdjustment(state);
+  } catch (...) {
+    board.tool = AdjustTool::kNone;
+    throw;
+  }
+}
+
+template <AdjustTool tool>
+void Adjust(State& state, const CommandArguments& arguments) {
+  const auto x = NumbersOf(arguments, "FROM_X FROM_Y TO_X TO_Y");
+  AdjustBetween(state, tool, {x[0], x[1]}, {x[2], x[3]});
+}
+
+void SetKnownLength(State& state, const CommandArguments& arguments) {
+  const auto x = NumbersOf(arguments, "MM FROM_X FROM_Y TO_X TO_Y");
+  if (!(x[0] > 0)) throw Error(Code::kBadArgument, "the length is not above 0 mm");
+  state.steps.panorama->adjust.millimetres = x[0];
+  AdjustBetween(state, AdjustTool::kLength, {x[1], x[2]}, {x[3], x[4]});
+}
+
+void SetSide(State& state, const CommandArguments& arguments) {
+  constexpr std::array<const char*, 3> kWords = {"unknown", "left", "right"};
+  const auto found = std::find(kWords.begin(), kWords.end(), arguments.front());
+  if (arguments.size() != 1 || found == kWords.end())
+    throw Error(Code::kBadArgument, "write left, right or unknown after it");
+  const auto side = static_cast<BodySide>(found - kWords.begin());
+  Edit(state, "Change the side", "", [&](auto& next) { next.scene.side = side; });
+}
+
+bool HasTiedFrame(const State& state) {
+  const auto& footage = state.steps.panorama->footage;
+  return Idle(state) && footage && footage->made && footage->selected >= 0;
+}
+
+void TieFrame(State& state, const CommandArguments& arguments) {
+  const auto x = NumbersOf(arguments, "FRAME_X FRAME_Y PANORAMA_X PANORAMA_Y");
+  AddTie(state, {x[0], x[1]}, {x[2], x[3]});
+}
+
+void MaskFrames(State& state, const CommandArguments& arguments) {
+  const auto x = NumbersOf(arguments, "LEFT TOP RIGHT BOTTOM");
+  AddMask(state, {x[0], x[1]}, {x[2], x[3]});
 }
 
 constexpr Command kPanoramaCommands[] = {
@@ -92,6 +154,85 @@ constexpr Command kPanoramaCommands[] = {
      {},
      [](const State& state) { return Idle(state) && HasPicture(state); },
      MirrorForOtherKnee},
+    {"crop",
+     "Crop",
+     "Keep a rectangle of the panorama and of its depth.",
+     "Scene",
+     {},
+     {},
+     HasPictureAndTime,
+     UseTool<AdjustTool::kCrop>,
+     "",
+     "LEFT TOP RIGHT BOTTOM",
+     Adjust<AdjustTool::kCrop>},
+    {"known-length",
+     "Known length",
+     "Set the size of the scene by two points and a length.",
+     "Scene",
+     {},
+     {},
+     HasPictureAndTime,
+     UseTool<AdjustTool::kLength>,
+     "",
+     "MM X Y X Y",
+     SetKnownLength},
+    {"this-is-up",
+     "This is up",
+     "Turn the scene so that an arrow on the panorama points up.",
+     "Scene",
+     {},
+     {},
+     HasPictureAndTime,
+     UseTool<AdjustTool::kUp>,
+     "",
+     "X Y X Y",
+     Adjust<AdjustTool::kUp>},
+    {"this-is-medial",
+     "This is medial",
+     "Turn the scene so that an arrow points to the middle of the body.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) {
+       return HasPictureAndTime(state) && state.document().scene.side != BodySide::kUnknown;
+     },
+     UseTool<AdjustTool::kMedial>,
+     "State the side of the knee below first: medial is right in a right knee.",
+     "X Y X Y",
+     Adjust<AdjustTool::kMedial>},
+    {"side",
+     "Side",
+     "Side of the body that the scene shows.",
+     "Scene",
+     {},
+     {},
+     Idle,
+     [](State& state) { state.step = Step::kPanorama; },
+     "",
+     "left|right|unknown",
+     SetSide},
+    {"tie",
+     "Tie this frame",
+     "Tie a point of the chosen frame to a point of the panorama.",
+     "Scene",
+     {},
+     {},
+     HasTiedFrame,
+     [](State& state) { SetTool(state, BoardTool::kTie); },
+     "Make a panorama from footage, and choose one of its frames.",
+     "X Y X Y",
+     TieFrame},
+    {"mask",
+     "Mask by hand",
+     "Leave a rectangle of every frame out of the panorama.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && state.steps.panorama->footage.has_value(); },
+     [](State& state) { SetTool(state, BoardTool::kMask); },
+     "First choose a video or a folder of pictures.",
+     "LEFT TOP RIGHT BOTTOM",
+     MaskFrames},
     {"read-report",
      "Read its report…",
      "Read the middle and focal length of the panorama from its report.",

@@ -129,7 +129,7 @@ TEST_F(Footage, AFolderOfPicturesComesOnTheBoardFrameByFrame) {
 TEST_F(Footage, ANewSceneFromAClipByNameShowsItsBoard) {
   OpenScene(state, test::WriteSmallScene(temp / "knee"));
   Settle();
-  EXPECT_EQ(RunByName(state, "new-from-footage", clip), "");
+  EXPECT_EQ(RunByName(state, "new-from-footage", {clip.string()}), "");
   Settle();
   EXPECT_TRUE(ShowsFootage(state));
   ASSERT_TRUE(state.steps.panorama->footage);

@@ -1,5 +1,6 @@
 // Views of the window: scope picture and overview, turned, resized and swapped by mouse.
 #include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -86,6 +87,31 @@ TEST_F(EditorWindow, TheWindowOpensAtTheScaleThatWasChosen) {
                                 "click Tissue\nshot " + shot.string(), "2560x1600x24");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(ReadColourImage(shot).width, 2560);
+}
+
+// Each page on the screens that people have: no control is cut off or lies over another.
+TEST_F(EditorWindow, PagesFitTheirWindowAtEveryUsualSizeAndScale) {
+  std::string pages = "wait job\nwait frames 5\nexpect layout\n";
+  for (const char* page : {"depth", "tissue", "portals", "practice", "exercises", "panorama"}) {
+    pages += std::string("do step-") + page + "\nwait frames 5\nexpect layout\nshot " +
+             (temp / (std::string(page) + ".png")).string() + "\n";
+    if (std::string_view(page) == "tissue")
+      for (const char* part : {"Material", "Mesh", "Hold", "Cut", "Place"})
+        pages += std::string("click ") + part + "\nwait frames 5\nexpect layout\n";
+  }
+  const struct {
+    const char* flags;
+    const char* screen;
+    int width;
+  } kWindows[] = {{"--size 1280x800", "1280x800x24", 1280},
+                  {"--size 1920x1080", "1920x1080x24", 1920},
+                  {"--size 1280x800 --scale 2", "2560x1600x24", 2560}};
+  for (const auto& window : kWindows) {
+    const auto result =
+        RunWindow("edit " + scene.string() + " " + window.flags, pages, window.screen);
+    EXPECT_EQ(result.exit_code, 0) << window.flags << ": " << result.err;
+    EXPECT_EQ(ReadColourImage(temp / "portals.png").width, window.width) << window.flags;
+  }
 }
 
 TEST_F(EditorWindow, ThePictureAtRestIsTheSameWithASmallMovingPicture) {

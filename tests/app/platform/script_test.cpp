@@ -66,7 +66,7 @@ TEST(Script, StrokesPosesAndCommandsAreRead) {
   EXPECT_TRUE(lines[0].ctrl && !lines[0].shift);
   EXPECT_EQ(lines[1].numbers, (std::vector<double>{0.02, 0.1, 0, -1e-3}));
   EXPECT_EQ(lines[2].name, "save-as");
-  EXPECT_EQ(lines[2].text, "my knee");
+  EXPECT_EQ(lines[2].arguments, std::vector<std::string>{"my knee"});
   EXPECT_EQ(lines[3].text, "a.png");
   EXPECT_TRUE(lines[4].shift);
   for (const char* wrong : {"stroke A", "stroke A 1", "stroke A 1 x", "pose hand 1 2 3 4",
@@ -148,10 +148,11 @@ TEST_F(RunScript, AStrokeGivesOnePointPerFrame) {
 }
 
 TEST_F(RunScript, CommandsAreHandedToTheWindow) {
-  ScriptRunner runner(ParseScript("do save-as here"));
+  ScriptRunner runner(ParseScript("do crop 1 2 30 40"));
   std::string done;
-  runner.SetActions({[&](const auto& id, const auto& file) {
-                       done = id + " " + file.string();
+  runner.SetActions({[&](const auto& id, const auto& arguments) {
+                       done = id;
+                       for (const std::string& argument : arguments) done += " " + argument;
                        return std::string();
                      },
                      {},
@@ -159,7 +160,24 @@ TEST_F(RunScript, CommandsAreHandedToTheWindow) {
   for (int frame = 0; frame < 20 && runner.state() == ScriptState::kRunning; ++frame)
     runner.AfterFrame(widgets, false, input, {});
   EXPECT_EQ(runner.state(), ScriptState::kFinished);
-  EXPECT_EQ(done, "save-as here");
+  EXPECT_EQ(done, "crop 1 2 30 40");
+}
+
+TEST_F(RunScript, ControlsThatAreCutOffOrLieOverEachOtherFail) {
+  EXPECT_EQ(Run("expect layout"), ScriptState::kFailed) << "there are none";
+  widgets.Record({"Left", 10, 10, 60, 30, true});
+  widgets.Record({"Right", 61, 10, 100, 30, true});
+  widgets.Record({"Picture", 0, 0, 200, 200, true, true, "", WidgetKind::kPicture});
+  EXPECT_EQ(Run("expect layout"), ScriptState::kFinished);
+  widgets.Record({"Below", 10, 25, 100, 50, true});
+  EXPECT_EQ(Run("expect layout"), ScriptState::kFailed);
+  widgets.BeginFrame();
+  widgets.Record({"Wide", 10, 10, 60, 30, true});
+  EXPECT_EQ(Run("expect layout"), ScriptState::kFinished);
+  WidgetRecord cut{"Cut", 10, 40, 60, 60, true};
+  cut.is_cut = true;
+  widgets.Record(cut);
+  EXPECT_EQ(Run("expect layout"), ScriptState::kFailed);
 }
 
 TEST_F(RunScript, ExpectationsThatDoNotHoldFail) {

@@ -2,6 +2,7 @@
 // board.
 #include <cmath>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "app/state/command.h"
@@ -43,6 +44,17 @@ void Arrow(Ui& ui, const ImVec2& from, const ImVec2& to, bool has_head) {
   draw->AddTriangleFilled(to, corner(1), corner(-1), kAccent);
 }
 
+// Crops or scales by the two points, as a script would say it.
+void ApplyByName(EditorState& state) {
+  const AdjustBoard board = state.steps.panorama->adjust;  // a copy: the command resets it
+  CommandArguments arguments;
+  const bool is_crop = board.tool == AdjustTool::kCrop;
+  if (!is_crop) arguments.push_back(fmt::format("{:g}", board.millimetres));
+  for (const double pixel : {board.from->x, board.from->y, board.to->x, board.to->y})
+    arguments.push_back(fmt::format("{}", pixel));
+  Run(state, is_crop ? "crop" : "known-length", arguments, is_crop ? "Crop to it" : "Set the size");
+}
+
 }  // namespace
 
 void AdjustFields(Ui& ui, EditorState& state) {
@@ -73,7 +85,7 @@ void AdjustFields(Ui& ui, EditorState& state) {
                      (board.tool == AdjustTool::kCrop || board.tool == AdjustTool::kLength);
   if (waits && Button(ui, board.tool == AdjustTool::kCrop ? "Crop to it" : "Set the size", true,
                       {-FLT_MIN, 0}))
-    Guarded(state, "Change the backdrop", [&] { ApplyAdjustment(state); });
+    ApplyByName(state);
 
   int side = static_cast<int>(state.document().scene.side);
   if (Combo(ui, "Side", side, {"not stated", "left knee", "right knee"},
