@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include "app/editor/marks/brush_marks.h"
+#include "app/editor/marks/conflict_marks.h"
 #include "app/editor/marks/landmark_marks.h"
 #include "app/platform/script/script.h"
 #include "app/state/edits.h"
@@ -102,7 +103,7 @@ void DropModel(Ui& ui, const SceneViews& views, const Layout& layout, const Pict
 }
 
 bool ShowsPanorama(const SceneViews& views) {
-  return views.panorama_clicks.is_shown && PlacesLandmarks(views.state);
+  return views.panorama_clicks.is_shown && JudgesPlace(views.state);
 }
 
 // Marks over both pictures, and clicks into the scope's.
@@ -119,6 +120,17 @@ void Landmarks(Ui& ui, const SceneViews& views, const Layout& layout, const Pict
   if (layout.shows_overview)
     MarkOverview(ui, state, layout.overview,
                  [&](const glm::dvec3& x) { return pictures.OverviewPixelOf(x); });
+}
+
+// Where the shafts of scope and instrument are in conflict.
+void Conflicts(Ui& ui, const SceneViews& views, const Layout& layout, const PictureInput& input) {
+  Pictures& pictures = views.pictures;
+  if (layout.shows_picture)
+    MarkConflictsInScope(ui, views.state, layout.picture, input.area, pictures.view(),
+                         pictures.optics());
+  if (layout.shows_overview)
+    MarkConflictsInOverview(ui, views.state, layout.overview,
+                            [&](const glm::dvec3& x) { return pictures.OverviewPixelOf(x); });
 }
 
 }  // namespace
@@ -150,6 +162,7 @@ bool ShowSceneViews(Ui& ui, const Layout& layout, const SceneViews& views) {
         OverviewPicture(ui, state, layout.overview, pictures.overview_texture(), pictures.handle()),
         ui.scale);
   Landmarks(ui, views, layout, input);
+  Conflicts(ui, views, layout, input);
   if (layout.shows_picture) PanoramaClicksButton(ui, state, views.panorama_clicks, layout.picture);
   BrushRings(ui, views, layout, input);
   if (!ShowsPanorama(views)) DropModel(ui, views, layout, input);

@@ -75,7 +75,7 @@ void RunReachJob(const ReachArguments& arguments) {
     table += Row(loaded.scene.tissues[i].name, reach.tissues[i]);
   WriteAtomically(arguments.output, table);
   if (!is_asked) return;
-  const double spacing = simulation::SuggestedSpacing(scope, loaded, target);
+  const double spacing = simulation::SuggestedSpacing(scope, loaded, simulation::TargetsOf(target));
   fmt::print(arguments.output == "-" ? stderr : stdout,
              "suggested incision spacing for {}: {:.0f} mm\n", arguments.target,
              MmFromMetres(spacing));

@@ -1,4 +1,9 @@
 // The direction in which the scope looks, and the figure that validates it.
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
@@ -86,6 +91,33 @@ bool MayLookAt(const State& state) {
 
 constexpr const char* kOtherAngle = "The exercise asks for another view angle.";
 
+void ShowReach(State& state, const CommandArguments& arguments) {
+  if (arguments.size() != 1 || (arguments[0] != "on" && arguments[0] != "off"))
+    throw Error(Code::kBadArgument, "write on or off after it");
+  state.step = Step::kPortals;
+  state.steps.portals->reach.is_shown = arguments[0] == "on";
+}
+
+void SuggestFor(State& state, const CommandArguments& arguments) {
+  const std::vector<SpacingTarget> every = EverySpacingTarget(state.document().scene);
+  std::vector<SpacingTarget> chosen;
+  for (const std::string& argument : arguments) {
+    const auto found = std::find_if(every.begin(), every.end(), [&](const SpacingTarget& target) {
+      return WordsOf(target) == argument;
+    });
+    if (found == every.end()) {
+      std::string names;
+      for (const SpacingTarget& target : every)
+        names += (names.empty() ? "" : ", ") + WordsOf(target);
+      throw Error(Code::kBadArgument,
+                  fmt::format("there is no target \"{}\"; name some of: {}", argument, names));
+    }
+    chosen.push_back(*found);
+  }
+  state.steps.portals->reach.targets = std::move(chosen);
+  SuggestSpacing(state);
+}
+
 constexpr Command kPortalsCommands[] = {
     {"view-0",
      "0°",
@@ -123,6 +155,32 @@ constexpr Command kPortalsCommands[] = {
      MayLookAt<90>,
      LookAt<90>,
      kOtherAngle},
+    {"show-reach",
+     "Show reach",
+     "Colour the overview by what scope and instrument reach through these portals.",
+     "Incision",
+     {},
+     {},
+     HasPicture,
+     [](State& state) {
+       state.step = Step::kPortals;
+       state.steps.portals->reach.is_shown = !state.steps.portals->reach.is_shown;
+     },
+     "",
+     "on|off",
+     ShowReach},
+    {"suggest-spacing",
+     "Suggest spacing",
+     "Set the spacing at which most of the targets is seen and touched with the rods at 45° to "
+     "75°.",
+     "Incision",
+     {},
+     {},
+     HasPictureAndTime,
+     SuggestSpacing,
+     "",
+     "TARGET…",
+     SuggestFor},
     {"validation-plot",
      "Validation plot…",
      "Draw the path of the view's centre as the scope rolls, and write it as a table.",

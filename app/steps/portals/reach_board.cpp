@@ -33,6 +33,25 @@ bool IsWanted(const EditorState& state) {
          state.document().panorama != nullptr;
 }
 
+std::string WordsOf(const simulation::ShaftConflict& conflict, const Scene& scene) {
+  using Kind = simulation::ShaftConflict::Kind;
+  const double mm = MmFromMetres(conflict.depth);
+  switch (conflict.kind) {
+    case Kind::kScopeInTissue:
+    case Kind::kInstrumentInTissue:
+      return fmt::format("The shaft of the {} passes through {}.",
+                         conflict.kind == Kind::kScopeInTissue ? "scope" : "instrument",
+                         scene.tissues[static_cast<std::size_t>(conflict.tissue)].name);
+    case Kind::kScopeInRelief:
+    case Kind::kInstrumentInRelief:
+      return fmt::format("The shaft of the {} enters bone {:.0f} mm behind its portal.",
+                         conflict.kind == Kind::kScopeInRelief ? "scope" : "instrument", mm);
+    case Kind::kShaftsTouch:
+      break;
+  }
+  return fmt::format("The two shafts touch {:.0f} mm behind the scope's portal.", mm);
+}
+
 }  // namespace
 
 bool HasSameScope(const ReachKey& a, const ReachKey& b) {
@@ -79,49 +98,42 @@ std::shared_ptr<const ColourImage> ReachPictureOf(const EditorState& state) {
   return board.made->key.panorama == state.document().panorama ? board.made->picture : nullptr;
 }
 
-void SuggestSpacing(EditorState& state, int tissue) {
-  const std::string target =
-      tissue < 0 ? "the relief"
-                 : state.document().scene.tissues[static_cast<std::size_t>(tissue)].name;
-  state.jobs.Start("Suggest a spacing",
-                   [loaded = static_cast<const LoadedScene&>(state.document()), tissue,
-                    target](const Progress&) -> Jobs::Apply {
-                     const simulation::ScopeReach scope = simulation::ScopeReachOf(loaded);
-                     const double spacing = simulation::SuggestedSpacing(scope, loaded, tissue);
-                     return [spacing, target](EditorState& now) {
-                       SetIncisionSpacing(now, spacing);
-                       EndDrag(now);
-                       now.message = fmt::format("Incision spacing {:.0f} mm, which suits {} best",
-                                                 MmFromMetres(spacing), target);
-                     };
-                   });
+void SuggestSpacing(EditorState& state) {
+  const std::vector<SpacingTarget> chosen = ChosenSpacingTargets(state);
+  std::string words;
+  for (const SpacingTarget& target : chosen) words += (words.empty() ? "" : ", ") + WordsOf(target);
+  state.jobs.Start(
+      "Suggest a spacing",
+      [loaded = static_cast<const LoadedScene&>(state.document()), chosen,
+       words](const Progress&) -> Jobs::Apply {
+        const PlacedTargets placed = PlaceTargets(loaded, chosen);
+        const simulation::ScopeReach scope = simulation::ScopeReachOf(loaded, {}, placed.points);
+        const double spacing = simulation::SuggestedSpacing(scope, loaded, placed.targets);
+        return [spacing, words](EditorState& now) {
+          SetIncisionSpacing(now, spacing);
+          EndDrag(now);
+          now.message = fmt::format("Incision spacing {:.0f} mm, which suits {} best",
+                                    MmFromMetres(spacing), words);
+        };
+      });
 }
 
-std::vector<std::string> ShaftConflictWords(EditorState& state) {
+std::vector<ShaftFinding> FindShaftConflicts(EditorState& state) {
   ReachBoard& board = state.steps.portals->reach;
   const Scene& scene = state.document().scene;
-  std::vector<Pose> poses;
-  for (const Tissue& tissue : scene.tissues) poses.push_back(tissue.pose);
-  if (!board.obstacles || board.obstacle_surfaces != state.document().surfaces ||
-      board.obstacle_poses != poses) {
+  ReachKey key = ReachKeyOf(state.document());
+  key.view_angle = key.scope_length = key.incision_spacing = key.instrument_length = 0;
+  if (!board.obstacles || !(board.obstacle_key == key)) {
     board.obstacles = std::make_shared<const simulation::ShaftObstacles>(state.document());
-    board.obstacle_surfaces = state.document().surfaces;
-    board.obstacle_poses = std::move(poses);
+    board.obstacle_key = std::move(key);
   }
   const glm::dvec3 portal(scene.portals.incision_spacing, 0, 0);
-  std::vector<std::string> words;
-  using Kind = simulation::ShaftConflict::Kind;
+  std::vector<ShaftFinding> findings;
   for (const simulation::ShaftConflict& conflict :
        board.obstacles->Find(simulation::ViewFromPose(state.scope, scene.scope.view_angle).tip,
                              portal, portal + simulation::TipInOwnPortal(state.instrument)))
-    words.push_back(
-        conflict.kind == Kind::kShaftsTouch
-            ? fmt::format("The two shafts touch {:.0f} mm behind the scope's portal.",
-                          MmFromMetres(conflict.depth))
-            : fmt::format("The shaft of the {} passes through {}.",
-                          conflict.kind == Kind::kScopeInTissue ? "scope" : "instrument",
-                          scene.tissues[static_cast<std::size_t>(conflict.tissue)].name));
-  return words;
+    findings.push_back({WordsOf(conflict, scene), conflict.place});
+  return findings;
 }
 
 double AngleBetweenRods(const EditorState& state) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/state/editor_state.h"
+#include "app/steps/portals/spacing_targets.h"
 #include "simulation/practice/reach/portal_reach.h"
 #include "simulation/practice/reach/shaft_conflicts.h"
 #include "simulation/scene/image.h"
@@ -42,10 +43,10 @@ struct ReachBoard {
   std::shared_ptr<const MadeReach>
       made;  // null: none yet; of an earlier document while one is made
   Jobs jobs;
-  // Tissues in the way of the shafts, kept while they lie where they are.
+  std::vector<SpacingTarget> targets;  // as last chosen; see ChosenSpacingTargets
+  // What is in the way of the shafts, kept while it lies where it is.
   std::shared_ptr<const simulation::ShaftObstacles> obstacles;
-  std::vector<SharedSurface> obstacle_surfaces;
-  std::vector<Pose> obstacle_poses;
+  ReachKey obstacle_key;  // of the scene of the obstacles; its scope and instrument do not count
 };
 
 // Starts the work that is wanted, if any, and takes over what ended. Once a frame; returns at once.
@@ -55,11 +56,15 @@ bool KeepReachFresh(EditorState& state);
 // The panorama for the overview while the page shows the reach; null: the document's own.
 std::shared_ptr<const ColourImage> ReachPictureOf(const EditorState& state);
 
-// Sets the incision spacing that suits a tissue best; -1: the relief. Long work; undoable.
-void SuggestSpacing(EditorState& state, int tissue);
+// Sets the incision spacing that suits the chosen targets best. Long work; undoable.
+void SuggestSpacing(EditorState& state);
 
-// Conflicts of the shafts as the author holds them, one sentence each.
-std::vector<std::string> ShaftConflictWords(EditorState& state);
+// Conflicts of the shafts as the author holds them, each with a sentence.
+struct ShaftFinding {
+  std::string words;
+  glm::dvec3 x_in_portal{0.0};
+};
+std::vector<ShaftFinding> FindShaftConflicts(EditorState& state);
 
 // Angle between the author's rods as they are held, rad.
 double AngleBetweenRods(const EditorState& state);

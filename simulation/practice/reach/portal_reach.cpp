@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -155,12 +156,14 @@ void AddTissues(const LoadedScene& loaded, int most, ScopeReach& reach) {
   }
 }
 
-ReachShares SharesOf(const ScopeReach& scope, const std::vector<PlaceReach>& reached, int tissue) {
+// Of the places of a tissue or of a point; -1 and -1: of the relief.
+ReachShares SharesOf(const ScopeReach& scope, const std::vector<PlaceReach>& reached, int tissue,
+                     int point = -1) {
   ReachShares shares;
   double whole = 0;
   std::vector<double> angles;
   for (std::size_t i = 0; i < reached.size(); ++i) {
-    if (scope.places[i].tissue != tissue) continue;
+    if (scope.places[i].tissue != tissue || scope.places[i].point != point) continue;
     const double weight = scope.places[i].weight;
     const PlaceReach& place = reached[i];
     whole += weight;
@@ -182,10 +185,19 @@ ReachShares SharesOf(const ScopeReach& scope, const std::vector<PlaceReach>& rea
 
 }  // namespace
 
-ScopeReach ScopeReachOf(const LoadedScene& loaded, const ReachLimits& limits) {
+ScopeReach ScopeReachOf(const LoadedScene& loaded, const ReachLimits& limits,
+                        const std::vector<glm::dvec3>& points) {
   ScopeReach reach;
   AddRelief(loaded, limits.places, reach);
   AddTissues(loaded, limits.tissue_places, reach);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!(glm::length(points[i]) > 0)) continue;
+    ReachPlace place;
+    place.x = points[i];
+    place.weight = 1;
+    place.point = static_cast<int>(i);
+    reach.places.push_back(std::move(place));
+  }
   const Obstacles obstacles(loaded);
   for (ReachPlace& place : reach.places)
     place.rods = RodsThatShow(place.x, loaded.scene.scope.view_angle,
@@ -220,26 +232,42 @@ PortalReach ReachWith(const ScopeReach& scope, const LoadedScene& loaded, double
   return reach;
 }
 
-double SuggestedSpacing(const ScopeReach& scope, const LoadedScene& loaded, int tissue,
-                        const ReachLimits& limits) {
-  ScopeReach targets;
+ReachTargets TargetsOf(int tissue) {
+  ReachTargets targets;
+  targets.has_relief = tissue < 0;
+  if (tissue >= 0) targets.tissues = {tissue};
+  return targets;
+}
+
+double SuggestedSpacing(const ScopeReach& scope, const LoadedScene& loaded,
+                        const ReachTargets& targets, const ReachLimits& limits) {
+  // The tissue and the point of each target, as places bear them.
+  std::vector<std::pair<int, int>> wanted;
+  if (targets.has_relief) wanted.emplace_back(-1, -1);
+  for (const int tissue : targets.tissues) wanted.emplace_back(tissue, -1);
+  for (const int point : targets.points) wanted.emplace_back(-1, point);
+  ScopeReach chosen_places;
   for (const ReachPlace& place : scope.places)
-    if (place.tissue == tissue) targets.places.push_back(place);
-  if (targets.places.empty()) return loaded.scene.portals.incision_spacing;
+    if (std::find(wanted.begin(), wanted.end(), std::pair(place.tissue, place.point)) !=
+        wanted.end())
+      chosen_places.places.push_back(place);
+  if (chosen_places.places.empty()) return loaded.scene.portals.incision_spacing;
   const double side = loaded.scene.portals.incision_spacing < 0 ? -1 : 1;
-  ReachShares best;
-  double chosen = loaded.scene.portals.incision_spacing;
+  double best_good = 0, best_both = 0, chosen = loaded.scene.portals.incision_spacing;
   bool is_first = true;
   for (const double sign : {side, -side})
     for (int mm = 10; mm <= 60; mm += 2) {
       const double spacing = sign * 1e-3 * mm;
-      const PortalReach reach = ReachWith(targets, loaded, spacing, limits);
-      const ReachShares& shares =
-          tissue < 0 ? reach.relief : reach.tissues[static_cast<std::size_t>(tissue)];
-      if (!is_first &&
-          (shares.good < best.good || (shares.good == best.good && shares.both <= best.both)))
-        continue;
-      best = shares;
+      const PortalReach reach = ReachWith(chosen_places, loaded, spacing, limits);
+      double good = 0, both = 0;
+      for (const auto& [tissue, point] : wanted) {
+        const ReachShares shares = SharesOf(chosen_places, reach.places, tissue, point);
+        good += shares.good;
+        both += shares.both;
+      }
+      if (!is_first && (good < best_good || (good == best_good && both <= best_both))) continue;
+      best_good = good;
+      best_both = both;
       chosen = spacing;
       is_first = false;
     }

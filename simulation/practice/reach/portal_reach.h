@@ -32,7 +32,8 @@ struct ReachPlace {
   glm::dvec3 x{0.0};
   glm::dvec2 pixel{0.0};  // on the panorama, for a place of the relief
   double weight = 0;      // solid angle of the relief about the portal; 1 on a tissue
-  int tissue = -1;        // -1: the relief
+  int tissue = -1;        // -1: none
+  int point = -1;         // of the points that were asked for; -1: the relief, or a tissue
   // Directions of the scope's rod that show this place.
   std::vector<glm::dvec3> rods;
 };
@@ -43,8 +44,10 @@ struct ScopeReach {
   int pixel_step = 1;  // distance of the relief's places, px
 };
 
-// Empty without a panorama's relief or sphere to look at.
-ScopeReach ScopeReachOf(const LoadedScene& loaded, const ReachLimits& limits = {});
+// Empty without a panorama's relief or sphere to look at. `points`: further places, each on the
+// relief or on a tissue.
+ScopeReach ScopeReachOf(const LoadedScene& loaded, const ReachLimits& limits = {},
+                        const std::vector<glm::dvec3>& points = {});
 
 struct PlaceReach {
   bool is_seen = false, is_touched = false;
@@ -67,10 +70,18 @@ struct PortalReach {
 PortalReach ReachWith(const ScopeReach& scope, const LoadedScene& loaded, double incision_spacing,
                       const ReachLimits& limits = {});
 
+// What an incision spacing shall suit. Each entry counts the same, however large it is.
+struct ReachTargets {
+  bool has_relief = false;
+  std::vector<int> tissues;
+  std::vector<int> points;  // of those that the reach of the scope was computed with
+};
+ReachTargets TargetsOf(int tissue);  // one tissue; -1: the relief
+
 // Incision spacing, of those from −60 to 60 mm in steps of 2 mm that leave 10 mm between the
-// portals, with the largest share of good places, then of places reached by both; on the side of
-// the present spacing where two are equal. `tissue`: the target; -1: the relief.
-double SuggestedSpacing(const ScopeReach& scope, const LoadedScene& loaded, int tissue,
-                        const ReachLimits& limits = {});
+// portals, with the largest mean share of good places of the targets, then of places reached by
+// both; on the side of the present spacing where two are equal. The present one without a target.
+double SuggestedSpacing(const ScopeReach& scope, const LoadedScene& loaded,
+                        const ReachTargets& targets, const ReachLimits& limits = {});
 
 }  // namespace arthro::simulation

@@ -29,7 +29,7 @@ class CellGrid {
         rows_(panorama.height / step_ + 1),
         cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
     for (std::size_t i = 0; i < scope.places.size(); ++i)
-      if (const ReachPlace& place = scope.places[i]; place.tissue < 0)
+      if (const ReachPlace& place = scope.places[i]; place.tissue < 0 && place.point < 0)
         cells_[IndexOf(static_cast<int>(place.pixel.x) / step_,
                        static_cast<int>(place.pixel.y) / step_)] =
             &ColourOf(ClassOf(reach.places[i]));

@@ -7,6 +7,7 @@
 
 #include "app/steps/budget/frame_budget.h"
 #include "app/steps/depth/depth_step.h"
+#include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/hand_motion.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/practice/rig_edit.h"
@@ -22,7 +23,8 @@ namespace fs = std::filesystem;
 // Said what the command does, which is no reason.
 TEST_F(Commands, ACommandThatCannotBeCalledByNameSaysWhy) {
   const auto why = [&](const char* id, const fs::path& file = {}) {
-    return RunByName(state, id, file);
+    return RunByName(state, id,
+                     file.empty() ? CommandArguments{} : CommandArguments{file.string()});
   };
   EXPECT_NE(why("depth-map").find("the scene has no picture"), std::string::npos)
       << why("depth-map");
@@ -63,6 +65,57 @@ TEST_F(Commands, APageOfACommandThatIsCalledByNameIsOpened) {
   EXPECT_EQ(state.step, Step::kPractice);
   EXPECT_TRUE(state.steps.practice->rig->is_shown);
   EXPECT_NE(RunByName(state, "forget-lengths", {}), "") << "there are none";
+}
+
+// What the mouse alone could do before, by name and with arguments.
+TEST_F(Commands, AScriptNamesACommandWithItsArguments) {
+  Open();
+  EXPECT_EQ(RunByName(state, "show-reach", {"on"}), "");
+  EXPECT_EQ(state.step, Step::kPortals);
+  EXPECT_TRUE(state.steps.portals->reach.is_shown);
+  EXPECT_EQ(RunByName(state, "show-reach", {"off"}), "");
+  EXPECT_FALSE(state.steps.portals->reach.is_shown);
+  Settle(state);
+  EXPECT_NE(RunByName(state, "suggest-spacing", {"hip"}).find("name some of: relief, octahedron"),
+            std::string::npos);
+  EXPECT_EQ(RunByName(state, "suggest-spacing", {"octahedron", "relief"}), "");
+  Settle(state);
+  EXPECT_NE(state.message.find("suits octahedron, relief best"), std::string::npos)
+      << state.message;
+
+  EXPECT_NE(RunByName(state, "this-is-medial", {"10", "20", "60", "20"}), "") << "no side yet";
+  EXPECT_EQ(RunByName(state, "side", {"left"}), "");
+  EXPECT_EQ(state.document().scene.side, BodySide::kLeft);
+  EXPECT_EQ(RunByName(state, "this-is-medial", {"10", "20", "60", "20"}), "");
+  EXPECT_EQ(RunByName(state, "this-is-up", {"10", "60", "10", "20"}), "");
+  const double radius = state.document().scene.backdrop.radius;
+  EXPECT_EQ(RunByName(state, "known-length", {"12", "100", "100", "180", "120"}), "");
+  EXPECT_NE(state.document().scene.backdrop.radius, radius);
+  Settle(state);
+  EXPECT_EQ(RunByName(state, "crop", {"20", "30", "219", "179"}), "");
+  EXPECT_EQ(state.document().panorama->width, 200);
+  EXPECT_EQ(state.document().panorama->height, 150);
+  Settle(state);
+  EXPECT_NE(RunByName(state, "crop", {"20", "30", "x", "179"}).find("\"x\" is not a number"),
+            std::string::npos);
+  EXPECT_NE(RunByName(state, "crop", {"20", "30"}).find("2 numbers are given"), std::string::npos);
+  EXPECT_TRUE(state.dialogs.empty());
+  EXPECT_NE(RunByName(state, "undo", {"a", "b"}), "") << "it takes none";
+  EXPECT_NE(RunByName(state, "mask", {"1", "1", "20", "20"}), "") << "no footage";
+  EXPECT_EQ(RunByName(state, "keep-snapshot", {"before the tear"}), "");
+  Settle(state);
+  EXPECT_NE(state.message.find("before the tear"), std::string::npos) << state.message;
+}
+
+TEST_F(Commands, ACommandWithArgumentsIsRecordedInPlaceOfTheClickOnItsItem) {
+  Open();
+  state.record.is_on = true;
+  app::Run(state, "suggest-spacing", {"relief", "my tissue"});
+  app::Run(state, "side", {"right"}, "Side of the knee");
+  EXPECT_EQ(state.record.pending,
+            (std::vector<std::string>{"do suggest-spacing relief \"my tissue\"", "do side right"}));
+  EXPECT_EQ(state.record.command_words,
+            (std::vector<std::string>{"Suggest spacing", "Side of the knee"}));
 }
 
 // A grey button that does not say why is a dead end.

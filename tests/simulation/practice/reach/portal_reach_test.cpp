@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -165,11 +167,40 @@ TEST(PortalReach, SuggestsTheSideThatReaches) {
   loaded.scene.tissues = {ball};
   loaded.scene.portals.incision_spacing = 0.03;
   const ScopeReach scope = ScopeReachOf(loaded);
-  const double spacing = SuggestedSpacing(scope, loaded, 0);
+  const double spacing = SuggestedSpacing(scope, loaded, TargetsOf(0));
   EXPECT_LT(spacing, 0) << "the wall stands on the right";
   const auto share = [&](double b) { return ReachWith(scope, loaded, b).tissues[0]; };
   for (int mm = 10; mm <= 60; mm += 2)
     for (const double b : {-1e-3 * mm, 1e-3 * mm}) EXPECT_LE(share(b).good, share(spacing).good);
+}
+
+// A ball just to the left of the wall is touched from the left alone, a place to its right from the
+// right alone. A target that is reached from both sides decides nothing between them.
+TEST(PortalReach, SuggestedSpacingSuitsEveryTargetTheSame) {
+  LoadedScene loaded = WalledJoint();
+  loaded.surfaces = {Share(test::Sphere({0, 0, 0}, 2e-3, 2))};
+  Tissue ball;
+  ball.pose.position = {0, 0, 0.045};
+  loaded.scene.tissues = {ball};
+  loaded.scene.portals.incision_spacing = 0.03;
+  const auto at = [](double longitude_deg) {
+    const double a = RadiansFromDegrees(longitude_deg);
+    return 0.05 * glm::dvec3(std::sin(a), 0, std::cos(a));
+  };
+  const ScopeReach scope = ScopeReachOf(loaded, {}, {at(25), at(28), at(31)});
+  const auto suggested = [&](std::vector<int> tissues, std::vector<int> points) {
+    ReachTargets targets;
+    targets.tissues = std::move(tissues);
+    targets.points = std::move(points);
+    return SuggestedSpacing(scope, loaded, targets);
+  };
+  EXPECT_LT(suggested({0}, {}), 0);
+  EXPECT_GT(suggested({}, {0, 1, 2}), 0) << "the wall hides them from the left";
+  EXPECT_GT(suggested({0}, {0, 1, 2}), 0) << "three targets are more than one";
+  // The relief's shares are those without the points.
+  const PortalReach with = ReachWith(scope, loaded, 0.03),
+                    without = ReachWith(ScopeReachOf(loaded), loaded, 0.03);
+  EXPECT_EQ(with.relief.both, without.relief.both);
 }
 
 TEST(ReachPicture, ColoursWhatWasImaged) {
@@ -199,7 +230,7 @@ TEST(PortalReach, OfNothingIsNothing) {
   const ScopeReach scope = ScopeReachOf(empty);
   EXPECT_TRUE(scope.places.empty());
   EXPECT_EQ(ReachWith(scope, empty, 0.03).relief.seen, 0);
-  EXPECT_EQ(SuggestedSpacing(scope, empty, -1), empty.scene.portals.incision_spacing);
+  EXPECT_EQ(SuggestedSpacing(scope, empty, TargetsOf(-1)), empty.scene.portals.incision_spacing);
 }
 
 }  // namespace
