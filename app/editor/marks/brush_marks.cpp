@@ -1,19 +1,26 @@
 #include "app/editor/marks/brush_marks.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <imgui.h>
 
+#include "app/editor/marks/model_marks.h"
 #include "app/platform/theme.h"
 #include "app/steps/depth/depth_step.h"
 
 namespace arthro::app {
 namespace {
 
-using ToWindow = std::function<std::optional<glm::dvec2>(const glm::dvec3& x_in_portal)>;
-
 constexpr unsigned kStroke = 0xC0F0C850;
+constexpr unsigned kTouch = 0xFF60E8F8;  // yellow
+constexpr unsigned kProbe = 0xFFD8D8D8;  // steel
+
+bool HasMarks(const EditorState& state) { return PaintsDepth(state) || TouchesRelief(state); }
 
 // A line through the places that the picture shows.
 void Line(const std::vector<std::optional<glm::dvec3>>& places, const ToWindow& to_window,
@@ -29,7 +36,51 @@ void Line(const std::vector<std::optional<glm::dvec3>>& places, const ToWindow& 
   }
 }
 
+// Ring, normal and probe of the touch preview.
+void MarkTouch(const Ui& ui, const TouchReading& touch, const glm::dvec3& portal,
+               const ToWindow& to_window) {
+  constexpr double kRing = 1.5e-3, kArrow = 6e-3, kHead = 1.5e-3, kRod = 15e-3;  // m
+  const bool feels = touch.tip_force > 0;
+  const glm::dvec3 normal = feels ? touch.normal : -glm::normalize(touch.point);
+  const glm::dvec3 other = std::abs(normal.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+  const glm::dvec3 first = glm::normalize(glm::cross(normal, other)),
+                   second = glm::cross(normal, first);
+  using Path = std::vector<std::optional<glm::dvec3>>;
+  // Points along the rod, since the scope's lens bends a line.
+  constexpr int kParts = 24;
+  Path rod, ring, arrow;
+  const double length = std::min(kRod, glm::distance(portal, touch.point));
+  const glm::dvec3 back = glm::normalize(portal - touch.point);
+  for (int i = 0; i <= kParts; ++i) {
+    const double share = static_cast<double>(i) / kParts, a = 2 * std::numbers::pi * share;
+    rod.emplace_back(touch.point + share * length * back);
+    ring.emplace_back(touch.point + kRing * (std::cos(a) * first + std::sin(a) * second));
+    arrow.emplace_back(touch.point + share * kArrow * normal);
+  }
+  const glm::dvec3 end = touch.point + kArrow * normal, neck = end - kHead * normal;
+  const Path head{neck + 0.6 * kHead * first, end, neck - 0.6 * kHead * first};
+  const unsigned colour = feels ? kTouch : kQuiet;
+  Line(rod, to_window, kMarkShadow, ui.Px(7));
+  Line(rod, to_window, kProbe, ui.Px(4));
+  Line(ring, to_window, kMarkShadow, ui.Px(4));
+  Line(ring, to_window, colour, ui.Px(2));
+  if (!feels) return;
+  for (const auto& [shade, width] : {std::pair(kMarkShadow, 4.5), std::pair(colour, 2.2)}) {
+    Line(arrow, to_window, shade, ui.Px(width));
+    Line(head, to_window, shade, ui.Px(width));
+  }
+}
+
 void Mark(const Ui& ui, const EditorState& state, const Area& area, const ToWindow& to_window) {
+  if (TouchesRelief(state)) {
+    const TouchPreview& touch = state.steps.depth->touch;
+    const glm::dvec3 portal(state.document().scene.portals.incision_spacing, 0, 0);
+    ImGui::GetWindowDrawList()->PushClipRect({area.x, area.y},
+                                             {area.x + area.width, area.y + area.height}, true);
+    if (touch.reading) MarkTouch(ui, *touch.reading, portal, to_window);
+    ImGui::GetWindowDrawList()->PopClipRect();
+    return;
+  }
   const DepthBrush& brush = state.steps.depth->board.brush;
   ImGui::GetWindowDrawList()->PushClipRect({area.x, area.y},
                                            {area.x + area.width, area.y + area.height}, true);
@@ -51,7 +102,7 @@ void Mark(const Ui& ui, const EditorState& state, const Area& area, const ToWind
 
 void MarkBrushInScope(Ui& ui, const EditorState& state, const Area& window, const Area& picture,
                       const simulation::ScopeView& view, const simulation::ScopeOptics& optics) {
-  if (!PaintsDepth(state)) return;
+  if (!HasMarks(state)) return;
   const FixedWindow same(ui, "picture", window, kPictureWindow);
   const double radius = 0.5 * picture.width;
   Mark(ui, state, picture, [&](const glm::dvec3& x) -> std::optional<glm::dvec2> {
@@ -64,7 +115,7 @@ void MarkBrushInScope(Ui& ui, const EditorState& state, const Area& window, cons
 void MarkBrushInOverview(
     Ui& ui, const EditorState& state, const Area& window,
     const std::function<std::optional<glm::dvec2>(const glm::dvec3&)>& pixel_of) {
-  if (!PaintsDepth(state)) return;
+  if (!HasMarks(state)) return;
   const FixedWindow same(ui, "overview", window, kPictureWindow);
   Mark(ui, state, window, [&](const glm::dvec3& x) -> std::optional<glm::dvec2> {
     const auto pixel = pixel_of(x);

@@ -1,6 +1,7 @@
-// Ring of the depth brush on the relief, over the scope's picture and the overview, and the line of
-// the stroke under way. The outer ring is the size, the inner one the hard core. Portal frame, m;
-// areas in window coordinates, px.
+// Marks of the Depth page over the scope's picture and the overview. The depth brush: its ring on
+// the relief, the outer one its size and the inner one its hard core, and the line of the stroke
+// under way. The touch preview: a ring on the surface, its normal, and the probe that presses.
+// Portal frame, m; areas in window coordinates, px.
 #pragma once
 
 #include <functional>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -9,6 +10,7 @@
 #include "app/steps/depth/depth_step.h"
 #include "simulation/core/units.h"
 #include "simulation/scope/rod_pose.h"
+#include "simulation/tissue/body/elastic_layer.h"
 
 namespace arthro::app {
 namespace {
@@ -19,16 +21,49 @@ constexpr int kApproachTicks = 60;
 constexpr double kSearch = 5e-3;  // m, behind the relief
 constexpr double kStep = 5e-5;    // m per tick
 constexpr int kPressTicks = 60;
-constexpr double kReached = 3e-3;  // m, of the tip from the point before it presses
+constexpr double kReached = 3e-3;      // m, of the tip from the point before it presses
+constexpr double kEndRadius = 5e-4;    // m, of the probe's end
+constexpr double kLayerPress = 5e-5;   // m, at which a thin layer is read; its law is linear there
+constexpr double kSightRadius = 1e-5;  // m; a line without one could pass between triangles
 
 }  // namespace
 
-TouchProbe::TouchProbe(const LoadedScene& scene, const simulation::SessionOptions& options)
+std::vector<double> TipStiffness(const Scene& scene,
+                                 const std::vector<simulation::TissuePreset>& presets) {
+  std::vector<double> stiffness;
+  for (const Tissue& tissue : scene.tissues) {
+    stiffness.push_back(0);
+    const simulation::TissuePreset* found = FindTissuePreset(presets, tissue.material);
+    if (found == nullptr) continue;
+    const simulation::TissuePreset preset = WithElasticity(*found, tissue.elasticity);
+    const simulation::Material& material = preset.material;
+    if (IsThinLayer(tissue, presets) && preset.layer_thickness > 0)
+      stiffness.back() = simulation::ElasticLayer(material, preset.layer_thickness)
+                             .PressFlat(kEndRadius, kLayerPress)
+                             .force /
+                         kLayerPress;
+    else
+      stiffness.back() = 2 * kEndRadius * material.young_modulus /
+                         (1 - material.poisson_ratio * material.poisson_ratio);
+  }
+  return stiffness;
+}
+
+TouchProbe::TouchProbe(const LoadedScene& scene, const simulation::SessionOptions& options,
+                       std::vector<double> stiffness)
     : session_(scene, options),
+      stiffness_(std::move(stiffness)),
+      contact_(options.contact.stiffness),
       rig_(scene.scene.rig.instrument),
       portal_(scene.scene.portals.incision_spacing, 0, 0) {
   // The ramp after arming, and the rise of the whole force.
   const simulation::LimiterOptions& limiter = options.limiter;
+  for (std::size_t i = 0; i < scene.scene.tissues.size(); ++i) {
+    const bool is_there = i < scene.surfaces.size() && scene.surfaces[i] != nullptr;
+    tissues_.push_back(is_there
+                           ? simulation::SurfaceBvh(*scene.surfaces[i], scene.scene.tissues[i].pose)
+                           : simulation::SurfaceBvh());
+  }
   settled_ = static_cast<int>(
       std::ceil((limiter.ramp_time + limiter.max_force / limiter.max_rise) / kTick));
 }
@@ -53,11 +88,41 @@ void TouchProbe::Lead(const glm::dvec3& tip, int ticks) {
   }
 }
 
+std::optional<TouchProbe::TissueHit> TouchProbe::TissueAlong(const authoring::Sight& sight,
+                                                             double range) const {
+  simulation::SweepHit hit;
+  std::optional<TissueHit> found;
+  for (std::size_t i = 0; i < tissues_.size(); ++i)
+    if (!tissues_[i].empty() &&
+        tissues_[i].Sweep(sight.eye, sight.eye + range * sight.direction, kSightRadius, -1, hit))
+      found =
+          TissueHit{static_cast<int>(i),
+                    sight.eye + hit.fraction * range * sight.direction - kSightRadius * hit.normal,
+                    hit.normal};
+  return found;
+}
+
 TouchReading TouchProbe::Press(const glm::dvec3& point, double press) {
+  return PressAlong(point, glm::normalize(point), press);
+}
+
+TouchReading TouchProbe::PressTissue(const glm::dvec3& point, int tissue, const glm::dvec3& normal,
+                                     double press) {
+  const auto index = static_cast<std::size_t>(tissue);
+  const double soft = index < stiffness_.size() ? stiffness_[index] : 0.0;
+  // Tissue and contact are springs in series: the contact gives its share of the way.
+  TouchReading reading =
+      PressAlong(point, -normal, soft > 0 ? press * soft / (soft + contact_) : press);
+  reading.tissue = tissue;
+  if (soft > 0 && reading.stiffness > 0) reading.stiffness = 1 / (1 / soft + 1 / reading.stiffness);
+  return reading;
+}
+
+TouchReading TouchProbe::PressAlong(const glm::dvec3& point, const glm::dvec3& inwards,
+                                    double press) {
   TouchReading reading;
   reading.point = point;
   reading.range = glm::length(point);
-  const glm::dvec3 inwards = point / reading.range;
   // The instrument enters anew, through its portal.
   session_.Tick({}, {}, kTick);
   const glm::dvec3 before = point - kApproach * inwards;
@@ -98,31 +163,44 @@ bool TouchesRelief(const EditorState& state) {
 
 void KeepTouchFresh(EditorState& state, const simulation::SessionOptions& options) {
   TouchPreview& touch = state.steps.depth->touch;
-  const auto& depth = state.document().depth;
-  if (!TouchesRelief(state) || touch.depth == depth || state.jobs.busy() || DepthIsUnderWay(state))
+  const authoring::Document& document = state.document();
+  if (!TouchesRelief(state) || state.jobs.busy() || DepthIsUnderWay(state) ||
+      (touch.depth == document.depth && touch.surfaces == document.surfaces &&
+       touch.tissues == document.scene.tissues))
     return;
-  touch.depth = depth;
+  touch.depth = document.depth;
+  touch.surfaces = document.surfaces;
+  touch.tissues = document.scene.tissues;
   touch.probe.reset();
-  state.jobs.Start("Touch preview",
-                   [document = state.document(), options](const Progress&) -> Jobs::Apply {
-                     auto probe = std::make_shared<TouchProbe>(document, options);
-                     return [probe, depth = document.depth](EditorState& now) {
-                       if (now.steps.depth->touch.depth == depth)
-                         now.steps.depth->touch.probe = probe;
-                     };
-                   });
+  state.jobs.Start(
+      "Touch preview",
+      [document, options, stiffness = TipStiffness(document.scene, state.tissue_presets)](
+          const Progress&) -> Jobs::Apply {
+        auto probe = std::make_shared<TouchProbe>(document, options, stiffness);
+        return [probe, depth = document.depth](EditorState& now) {
+          if (now.steps.depth->touch.depth == depth) now.steps.depth->touch.probe = probe;
+        };
+      });
 }
 
 void TouchAlong(EditorState& state, const authoring::Sight& sight) {
   TouchPreview& touch = state.steps.depth->touch;
   touch.reading.reset();
   if (!touch.probe) return;
-  if (const auto point = authoring::PointOnRelief(state.document(), sight))
+  const auto point = authoring::PointOnRelief(state.document(), sight);
+  const double range = point ? glm::distance(point->x_in_portal, sight.eye)
+                             : glm::length(sight.eye) + state.document().scene.backdrop.radius;
+  if (const auto hit = touch.probe->TissueAlong(sight, range))
+    touch.reading = touch.probe->PressTissue(hit->point, hit->tissue, hit->normal, touch.press);
+  else if (point)
     touch.reading = touch.probe->Press(point->x_in_portal, touch.press);
 }
 
-std::string WordsOfTouch(const TouchReading& reading) {
+std::string WordsOfTouch(const EditorState& state, const TouchReading& reading) {
+  const auto& tissues = state.document().scene.tissues;
   std::string words = fmt::format("{:.1f} mm from the portal", MmFromMetres(reading.range));
+  if (reading.tissue >= 0 && reading.tissue < static_cast<int>(tissues.size()))
+    words = fmt::format("{}: {}", tissues[static_cast<std::size_t>(reading.tissue)].name, words);
   if (!(reading.tip_force > 0)) return words + "; the probe feels nothing here";
   // Tilt of the surface against the line from the portal.
   const double cosine =

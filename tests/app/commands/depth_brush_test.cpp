@@ -18,6 +18,7 @@
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "tests/support/measured_scene.h"
+#include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::app {
@@ -314,6 +315,62 @@ TEST_F(DepthBrushOnMeasuredMap, TouchPreviewGivesTheForceOfASession) {
   // Pressed far too deep, the limiter of the session holds the force.
   const TouchReading deep = probe.Press(point, 20e-3);
   EXPECT_LE(deep.force, simulation::LimiterOptions().max_force + 1e-9);
+}
+
+// It read the relief behind it.
+TEST_F(DepthBrushOnMeasuredMap, TouchPreviewReadsATissueInFrontOfTheRelief) {
+  Edit(state, "Ball", "", [](authoring::Document& next) {
+    Tissue& tissue = next.scene.tissues.emplace_back();
+    tissue.name = "ball";
+    tissue.pose.position = {0, 0, 0.025};
+    next.surfaces.push_back(Share(test::Sphere({0, 0, 0}, 5e-3, 4)));
+  });
+  Settle(state);
+  const authoring::Sight onto{{0, 0, 0}, {0, 0, 1}, 1000};
+  const authoring::Sight beside{{0, 0, 0}, glm::normalize(glm::dvec3(-0.4, 0, 1)), 1000};
+  TouchProbe rigid(state.document(), {}), soft(state.document(), {}, {500.0});
+  const auto hit = rigid.TissueAlong(onto, 0.04);
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->tissue, 0);
+  EXPECT_NEAR(hit->point.z, 0.02, 2e-5) << "the triangles lie a little inside of the sphere";
+  EXPECT_LT(hit->normal.z, -0.99);
+  EXPECT_FALSE(rigid.TissueAlong(beside, 0.04));
+  const TouchReading hard = rigid.PressTissue(hit->point, 0, hit->normal, 1e-3),
+                     yields = soft.PressTissue(hit->point, 0, hit->normal, 1e-3);
+  EXPECT_GT(hard.tip_force, 0.1);
+  EXPECT_GT(-hard.normal.z, 0.98);
+  // Springs in series: the contact and 500 N/m.
+  EXPECT_NEAR(1 / yields.stiffness, 1 / hard.stiffness + 1 / 500.0, 0.05 / 500.0);
+  EXPECT_NEAR(yields.tip_force, 1e-3 * yields.stiffness, 0.1 * yields.tip_force);
+  EXPECT_LT(yields.tip_force, hard.tip_force);
+
+  // The command and the words.
+  app::Run(state, "touch-preview");
+  for (int i = 0; i < 3; ++i) Settle(state);
+  ASSERT_TRUE(state.steps.depth->touch.probe);
+  TouchAlong(state, onto);
+  ASSERT_TRUE(state.steps.depth->touch.reading);
+  EXPECT_EQ(state.steps.depth->touch.reading->tissue, 0);
+  EXPECT_EQ(WordsOfTouch(state, *state.steps.depth->touch.reading).substr(0, 8), "ball: 20");
+  TouchAlong(state, beside);
+  ASSERT_TRUE(state.steps.depth->touch.reading);
+  EXPECT_EQ(state.steps.depth->touch.reading->tissue, -1);
+}
+
+// A flat end on a half space: 2 a E / (1 - nu^2) [Sneddon 1965].
+TEST_F(DepthBrushOnMeasuredMap, TipStiffnessIsThatOfTheMaterial) {
+  Scene scene;
+  scene.tissues.resize(2);
+  scene.tissues[0].material = "rubber";
+  scene.tissues[1].material = "unknown";
+  std::vector<simulation::TissuePreset> presets(1);
+  presets[0].name = "rubber";
+  presets[0].material.young_modulus = 5e5;
+  presets[0].material.poisson_ratio = 0.4;
+  const auto stiffness = TipStiffness(scene, presets);
+  ASSERT_EQ(stiffness.size(), 2u);
+  EXPECT_NEAR(stiffness[0], 2 * 5e-4 * 5e5 / 0.84, 1e-9);
+  EXPECT_EQ(stiffness[1], 0);
 }
 
 TEST_F(DepthBrushOnMeasuredMap, AnImportedFileReplacesTheMapAfterItsMeaningWasGiven) {

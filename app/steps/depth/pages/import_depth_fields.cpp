@@ -65,7 +65,7 @@ void TouchFields(Ui& ui, EditorState& state) {
   else if (!touch.reading)
     QuietText(ui, "Point at the tissue in the scope's picture, the overview or the map.");
   else
-    Text(ui, WordsOfTouch(*touch.reading) + ".");
+    Text(ui, WordsOfTouch(state, *touch.reading) + ".");
 }
 
 }  // namespace arthro::app
