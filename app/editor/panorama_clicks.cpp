@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "app/editor/marks/landmark_marks.h"
+#include "app/steps/tissue/hand_placing.h"
 #include "app/steps/tissue/landmark_mode.h"
 #include "simulation/scene/projection.h"
 
@@ -12,7 +13,7 @@ namespace arthro::app {
 
 void PanoramaClicksButton(Ui& ui, const EditorState& state, PanoramaClicks& clicks,
                           const Area& area) {
-  if (!PlacesLandmarks(state)) return;
+  if (!JudgesPlace(state)) return;
   const char* words = clicks.is_shown ? "Show the scope" : "Show the panorama";
   // A window of its own, so that a click on it is no click into the picture.
   const ImVec2 padding = ImGui::GetStyle().FramePadding;
@@ -20,7 +21,8 @@ void PanoramaClicksButton(Ui& ui, const EditorState& state, PanoramaClicks& clic
                  ImGui::GetTextLineHeight() + 2 * padding.y};
   const FixedWindow window(ui, "change picture", own, kInsetWindow);
   if (Button(ui, words, true, {0, 0},
-             "Landmarks can be clicked in the scope's picture or in the whole panorama."))
+             "Judge the tissue's place in the scope's picture or in the whole panorama. Landmarks "
+             "can be clicked in both."))
     clicks.is_shown = !clicks.is_shown;
 }
 
@@ -57,12 +59,12 @@ void PanoramaPicture(Ui& ui, EditorState& state, PanoramaClicks& clicks, const A
 
   const double px_per_pixel = place.size.x / size.x;
   const Projection& projection = state.document().scene.backdrop.projection;
-  if (is_click) {
+  if (is_click && PlacesLandmarks(state)) {
     const glm::dvec2 pixel = (pointer - place.corner) / px_per_pixel - 0.5;
     if (pixel.x >= -0.5 && pixel.y >= -0.5 && pixel.x < size.x - 0.5 && pixel.y < size.y - 0.5)
       TakeScenePoint(state, authoring::SightOfPanorama(state.document().scene.backdrop, pixel));
   }
-  MarkLandmarks(ui, state, area, [&](const glm::dvec3& x) -> std::optional<glm::dvec2> {
+  MarkPanorama(ui, state, area, [&](const glm::dvec3& x) -> std::optional<glm::dvec2> {
     const auto pixel = PixelFromDirection(projection, x);
     if (!pixel) return std::nullopt;
     const glm::dvec2 at = place.corner + px_per_pixel * (*pixel + 0.5);

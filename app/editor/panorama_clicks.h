@@ -1,5 +1,6 @@
-// The whole panorama in the place of the scope's picture while landmarks are placed: a click gives
-// a landmark its place on the relief, the wheel and drags zoom and shift it.
+// The whole panorama in the place of the scope's picture while the place of a tissue is judged,
+// with the tissue over it. While landmarks are placed, a click gives one its place on the relief.
+// The wheel and drags zoom and shift the panorama.
 #pragma once
 
 #include <glm/vec2.hpp>

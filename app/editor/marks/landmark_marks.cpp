@@ -1,38 +1,22 @@
 #include "app/editor/marks/landmark_marks.h"
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <utility>
 
 #include <glm/geometric.hpp>
 #include <imgui.h>
 
+#include "app/editor/marks/model_marks.h"
 #include "app/platform/theme.h"
+#include "app/steps/tissue/hand_placing.h"
 #include "app/steps/tissue/landmark_mode.h"
 #include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
 namespace {
 
-// Window coordinates of a place; nothing for one that the picture cannot show.
-using ToWindow = std::function<std::optional<glm::dvec2>(const glm::dvec3& x_in_portal)>;
-
-constexpr unsigned kModelColour = 0xFF4DB8F2;  // amber
 constexpr unsigned kSceneColour = 0xFFE8C860;  // light teal
-
-class Clip {
- public:
-  explicit Clip(const Area& area) {
-    ImGui::GetWindowDrawList()->PushClipRect({area.x, area.y},
-                                             {area.x + area.width, area.y + area.height}, true);
-  }
-  ~Clip() { ImGui::GetWindowDrawList()->PopClipRect(); }
-  Clip(const Clip&) = delete;
-  Clip& operator=(const Clip&) = delete;
-};
-
-ImVec2 From(const glm::dvec2& x) { return {static_cast<float>(x.x), static_cast<float>(x.y)}; }
 
 void Number(const Ui& ui, const ImVec2& at, const std::string& number, unsigned colour) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -56,7 +40,7 @@ void SceneMark(const Ui& ui, const ImVec2& at, bool is_chosen) {
 // Draws into the current ImGui window, clipped to `area`.
 void DrawLandmarks(const Ui& ui, const EditorState& state, const Area& area,
                    const ToWindow& to_window) {
-  const Clip clip(area);
+  const MarkClip clip(area);
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const LandmarkMode& mode = state.steps.tissue->landmarks;
   const Pose& pose = state.document().scene.tissues[static_cast<std::size_t>(state.tissue)].pose;
@@ -65,14 +49,14 @@ void DrawLandmarks(const Ui& ui, const EditorState& state, const Area& area,
                              bool is_chosen) {
     const std::string words = std::to_string(number + 1);
     if (model && scene)
-      draw->AddLine(From(*model), From(*scene), 0xA0FFFFFF & kModelColour, ui.Px(1));
+      draw->AddLine(Corner(*model), Corner(*scene), 0xA0FFFFFF & kModelColour, ui.Px(1));
     if (scene) {
-      SceneMark(ui, From(*scene), is_chosen);
-      Number(ui, From(*scene), words, kSceneColour);
+      SceneMark(ui, Corner(*scene), is_chosen);
+      Number(ui, Corner(*scene), words, kSceneColour);
     }
     if (model) {
-      ModelMark(ui, From(*model), is_chosen);
-      Number(ui, From(*model), words, kModelColour);
+      ModelMark(ui, Corner(*model), is_chosen);
+      Number(ui, Corner(*model), words, kModelColour);
     }
   };
   for (std::size_t i = 0; i < mode.pairs.size(); ++i)
@@ -84,45 +68,11 @@ void DrawLandmarks(const Ui& ui, const EditorState& state, const Area& area,
   draw_half(model, scene, mode.pairs.size(), true);
 }
 
-// Draws the silhouette of the chosen tissue as seen from `eye`.
-void DrawOutline(const Ui& ui, const EditorState& state, const Area& area, const glm::dvec3& eye,
-                 const ToWindow& to_window) {
-  const auto index = static_cast<std::size_t>(state.tissue);
-  const auto& surface = state.document().surfaces[index];
-  if (!surface) return;
-  const Clip clip(area);
-  const Pose& pose = state.document().scene.tissues[index].pose;
-  std::vector<glm::dvec3> x;
-  x.reserve(surface->vertices.size());
-  for (const glm::dvec3& vertex : surface->vertices) x.push_back(pose * vertex);
-  // An edge belongs to the silhouette when one of its triangles faces the eye and the other not.
-  std::map<std::pair<int, int>, int> facing;
-  for (const auto& triangle : surface->triangles) {
-    const auto at = [&](int corner) {
-      return x[static_cast<std::size_t>(triangle[static_cast<std::size_t>(corner)])];
-    };
-    const glm::dvec3 normal = glm::cross(at(1) - at(0), at(2) - at(0));
-    const int side = glm::dot(normal, eye - at(0)) > 0 ? 1 : -1;
-    for (int corner = 0; corner < 3; ++corner)
-      facing[std::minmax(triangle[static_cast<std::size_t>(corner)],
-                         triangle[static_cast<std::size_t>((corner + 1) % 3)])] += side;
-  }
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  for (const auto& [edge, sum] : facing) {
-    if (sum != 0) continue;
-    const auto from = to_window(x[static_cast<std::size_t>(edge.first)]),
-               to = to_window(x[static_cast<std::size_t>(edge.second)]);
-    if (!from || !to) continue;
-    draw->AddLine(From(*from), From(*to), kMarkShadow, ui.Px(3));
-    draw->AddLine(From(*from), From(*to), kModelColour, ui.Px(1.4));
-  }
-}
-
 }  // namespace
 
-void MarkScope(Ui& ui, const EditorState& state, const Area& window, const Area& picture,
+void MarkScope(Ui& ui, EditorState& state, const Area& window, const Area& picture,
                const simulation::ScopeView& view, const simulation::ScopeOptics& optics) {
-  if (!IsOutlined(state) && !PlacesLandmarks(state)) return;
+  if (!JudgesPlace(state) && !PlacesLandmarks(state)) return;
   const FixedWindow same(ui, "picture", window, kPictureWindow);  // appended windows are on top
   const double radius = 0.5 * picture.width;
   const auto to_window = [&](const glm::dvec3& x) -> std::optional<glm::dvec2> {
@@ -130,13 +80,17 @@ void MarkScope(Ui& ui, const EditorState& state, const Area& window, const Area&
     if (!(glm::length(place) <= 1.0)) return std::nullopt;
     return glm::dvec2(picture.x + radius + radius * place.x, picture.y + radius - radius * place.y);
   };
+  DrawContours(ui, state, picture, view.tip, to_window);
   if (IsOutlined(state)) DrawOutline(ui, state, picture, view.tip, to_window);
   if (PlacesLandmarks(state)) DrawLandmarks(ui, state, picture, to_window);
 }
 
-void MarkLandmarks(const Ui& ui, const EditorState& state, const Area& area,
-                   const ToWindow& to_window) {
-  DrawLandmarks(ui, state, area, to_window);
+void MarkPanorama(const Ui& ui, EditorState& state, const Area& area, const ToWindow& to_window) {
+  const glm::dvec3 eye(0.0);  // the panorama is seen from the portal
+  if (!IsOutlined(state)) FillModel(state, area, eye, to_window, 1 - FadeOf(state));
+  DrawContours(ui, state, area, eye, to_window);
+  if (IsOutlined(state)) DrawOutline(ui, state, area, eye, to_window);
+  if (PlacesLandmarks(state)) DrawLandmarks(ui, state, area, to_window);
 }
 
 void FadeScope(Ui& ui, const Area& window, const Area& picture, unsigned texture, double fade) {

@@ -1,6 +1,7 @@
-// Numbered marks of landmarks over the scope's picture and the overview, and the outline of the
-// tissue that is placed. Filled marks are points of the model, rings are their places in the
-// scene. Portal frame, m; areas in window coordinates, px.
+// Numbered marks of landmarks over the scope's picture, the panorama and the overview, and the
+// tissue that is placed as an outline, with lines of its distances from the relief. Filled marks
+// are points of the model, rings are their places in the scene. Portal frame, m; areas in window
+// coordinates, px.
 #pragma once
 
 #include <functional>
@@ -9,6 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "app/editor/marks/model_marks.h"
 #include "app/panels/fixed_window.h"
 #include "app/state/editor_state.h"
 #include "simulation/scope/window_lens.h"
@@ -16,13 +18,12 @@
 namespace arthro::app {
 
 // `window`: area of the whole scope page; `picture`: square of the round picture in it.
-void MarkScope(Ui& ui, const EditorState& state, const Area& window, const Area& picture,
+void MarkScope(Ui& ui, EditorState& state, const Area& window, const Area& picture,
                const simulation::ScopeView& view, const simulation::ScopeOptics& optics);
 
-// Marks in the current ImGui window. `to_window`: window coordinates of a place; nothing for one
-// that the picture cannot show.
-void MarkLandmarks(const Ui& ui, const EditorState& state, const Area& area,
-                   const std::function<std::optional<glm::dvec2>(const glm::dvec3&)>& to_window);
+// Marks over the panorama in the current ImGui window, which shows the tissue, too: the panorama
+// has none.
+void MarkPanorama(const Ui& ui, EditorState& state, const Area& area, const ToWindow& to_window);
 
 // Draws the picture without the chosen tissue over the one with it, `fade` of it; the texture's
 // first row is at the top.

@@ -65,6 +65,7 @@ const authoring::ReliefFit& FitOfChosen(EditorState& state) {
   kept.pose = pose;
   kept.fit = authoring::FitOf(relief, OrEmpty(surface), pose);
   kept.colours = nullptr;
+  kept.contours = nullptr;
   return kept.fit;
 }
 
@@ -77,6 +78,17 @@ std::shared_ptr<const std::vector<glm::dvec3>> ShownDistances(EditorState& state
     kept.colours = std::make_shared<const std::vector<glm::dvec3>>(
         authoring::DistanceColours(kept.relief, OrEmpty(kept.surface), kept.pose));
   return kept.colours;
+}
+
+std::shared_ptr<const DistanceLines> ShownContours(EditorState& state) {
+  HandPlacing& placing = state.steps.tissue->placing;
+  if (!IsPlacePage(state) || !placing.shows_contours) return nullptr;
+  FitOfChosen(state);  // brings what is kept up to date
+  HandPlacing::Kept& kept = placing.kept;
+  if (!kept.contours)
+    kept.contours = std::make_shared<const DistanceLines>(
+        authoring::DistanceContours(kept.relief, OrEmpty(kept.surface), kept.pose));
+  return kept.contours;
 }
 
 void NoteBefore(EditorState& state) {
@@ -205,6 +217,8 @@ void RemovePatch(EditorState& state) {
   state.steps.tissue->placing.patch.reset();
   state.message = "Fit to the relief takes the whole side again.";
 }
+
+bool JudgesPlace(const EditorState& state) { return IsPlacePage(state); }
 
 bool IsOutlined(const EditorState& state) {
   if (PlacesLandmarks(state)) return state.steps.tissue->landmarks.shows_outline;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/state/editor_state.h"
+#include "authoring/alignment/distance_colours.h"
 #include "authoring/alignment/place_by_hand.h"
 #include "authoring/alignment/relief_distance.h"
 #include "authoring/alignment/scene_point.h"
@@ -17,12 +18,17 @@ namespace arthro::app {
 
 struct Ui;
 
+// Contours of kContourLevels, in the tissue's own frame.
+using DistanceLines = std::vector<std::vector<authoring::ContourSegment>>;
+
 struct HandPlacing {
   authoring::NudgeAxes axes = authoring::NudgeAxes::kPortal;
   double step = 1e-3;            // m
   double turn = 0.08726646;      // rad, 5 degrees
+  bool snaps = false;            // drags on the handle go by whole steps
   bool shows_outline = false;    // the tissue is an outline in the scope's picture
   bool shows_distances = false;  // its distances from the relief are colours in the overview
+  bool shows_contours = false;   // and lines in the scope's picture and the panorama
   bool shows_before = false;     // the tissue is shown where the last fit or alignment found it
   double fade = 0;               // share by which it is faded out of the scope's picture
   std::optional<Pose> before;    // pose to compare with
@@ -45,6 +51,7 @@ struct HandPlacing {
     authoring::ReliefFit fit;
     // Colours of its vertices; null until they are asked for.
     std::shared_ptr<const std::vector<glm::dvec3>> colours;
+    std::shared_ptr<const DistanceLines> contours;  // null until they are asked for
   } kept;
 };
 
@@ -73,6 +80,19 @@ void RemovePatch(EditorState& state);
 // Colours of the distances of the chosen tissue from the relief; null where they are not shown.
 std::shared_ptr<const std::vector<glm::dvec3>> ShownDistances(EditorState& state);
 
+// Contours of the distances of the chosen tissue from the relief; null where they are not shown.
+std::shared_ptr<const DistanceLines> ShownContours(EditorState& state);
+
+// Colour of a contour for ImGui: amber on the relief, blue in front of it, red behind it; the
+// nearer, the brighter.
+constexpr unsigned ColourOfContour(double level) {
+  if (level == 0) return 0xFF40D0FF;
+  const double mm = (level < 0 ? -level : level) * 1e3;
+  const auto pale = static_cast<unsigned>(mm < 0.75 ? 0xC0 : mm < 1.5 ? 0x70 : 0x20);
+  return level > 0 ? 0xFF000000 | 0xFFu << 16 | pale << 8 | pale / 2
+                   : 0xFF000000 | pale << 16 | pale / 2 << 8 | 0xFFu;
+}
+
 // Keeps the present pose of the chosen tissue, to compare with.
 void NoteBefore(EditorState& state);
 bool HasBefore(const EditorState& state);
@@ -80,6 +100,9 @@ bool HasBefore(const EditorState& state);
 std::optional<Pose> ShownBefore(const EditorState& state);
 // Share by which the chosen tissue is faded out of the scope's picture; 0: not at all.
 double FadeOf(const EditorState& state);
+
+// True while the place of the chosen tissue is judged: the Place page is open.
+bool JudgesPlace(const EditorState& state);
 
 // True while the chosen tissue is an outline in the scope's picture.
 bool IsOutlined(const EditorState& state);

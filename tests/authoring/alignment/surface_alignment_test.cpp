@@ -1,9 +1,12 @@
 // Poses from the surface of a tissue, and its distances from the relief.
 #include "authoring/alignment/surface_alignment.h"
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "authoring/alignment/distance_colours.h"
 #include "simulation/core/units.h"
 #include "tests/support/alignment/alignment_trials.h"
 #include "tests/support/shapes.h"
@@ -123,6 +126,45 @@ TEST(SurfaceAlignment, RefusesWhatIsFarAway) {
   EXPECT_EQ(found.portal_from_tissue, far);
   EXPECT_NE(found.sentence.find("more than 10 mm away"), std::string::npos) << found.sentence;
   EXPECT_FALSE(AlignSurface({}, tissue.surface, far).is_aligned);
+}
+
+// A square of two triangles whose corners lie 0 and 2 mm off the relief.
+TEST(DistanceContours, LieWhereTheDistanceIsOneOfTheLevels) {
+  SurfaceMesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  const auto contours = ContoursOf(square, {0, 2e-3, 2e-3, 0}, {0.5e-3, 5e-3});
+  ASSERT_EQ(contours.size(), 2u);
+  EXPECT_TRUE(contours[1].empty());
+  ASSERT_EQ(contours[0].size(), 2u) << "one segment in each triangle";
+  for (const ContourSegment& segment : contours[0]) {
+    EXPECT_NEAR(segment.from.x, 0.25, 1e-12);
+    EXPECT_NEAR(segment.to.x, 0.25, 1e-12);
+    EXPECT_GT(segment.normal.z, 0);
+  }
+  // Together they cross the square from y = 0 to 1.
+  EXPECT_NEAR(glm::distance(contours[0][0].from, contours[0][0].to) +
+                  glm::distance(contours[0][1].from, contours[0][1].to),
+              1.0, 1e-12);
+  const double unknown = std::nan("");
+  EXPECT_EQ(ContoursOf(square, {0, 2e-3, 2e-3, unknown}, {0.5e-3}).front().size(), 1u);
+}
+
+// A block through a bare sphere of 50 mm: the contour of 0 lies on the sphere.
+TEST(DistanceContours, OfNoDistanceLiesOnTheRelief) {
+  LoadedScene scene;
+  scene.panorama = Share(ColourImage(400, 300));
+  scene.scene.backdrop.projection.centre_px = {199.5, 149.5};
+  scene.scene.backdrop.projection.focal_px = 150;
+  const SurfaceMesh ball = test::Sphere({0, 0, 0}, 10 * kMm, 4);
+  Pose pose;
+  pose.position = glm::dvec3(0, 0, 50) * kMm;
+  const auto contours = DistanceContours(MakeReliefTarget(scene), ball, pose);
+  ASSERT_EQ(contours.size(), kContourLevels.size());
+  for (std::size_t k = 0; k < contours.size(); ++k) {
+    ASSERT_FALSE(contours[k].empty()) << kContourLevels[k];
+    // Distances are interpolated along edges of 0.7 mm of a ball of 10 mm.
+    for (const ContourSegment& segment : contours[k])
+      EXPECT_NEAR(50 * kMm - glm::length(pose * segment.from), kContourLevels[k], 0.02 * kMm);
+  }
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // Steps, mirror, fit and laying on the Place page.
+#include <cmath>
+
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
@@ -40,6 +42,29 @@ void DistanceLegend(Ui& ui) {
   QuietText(ui, right);
 }
 
+// Short lines in the colours of the contours, with their distances in words.
+void ContourLegend(Ui& ui) {
+  const auto line = [&](double level) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ui.Px(22), height = ImGui::GetTextLineHeight();
+    ImGui::GetWindowDrawList()->AddLine({at.x, at.y + height / 2},
+                                        {at.x + width, at.y + height / 2}, ColourOfContour(level),
+                                        ui.Px(level == 0 ? 3 : 2));
+    ImGui::Dummy({width, height});
+    ImGui::SameLine(0, ui.Px(4));
+    QuietText(ui, fmt::format("{:g}", MmFromMetres(std::abs(level))));
+  };
+  for (const bool is_behind : {false, true}) {
+    for (const double level : authoring::kContourLevels) {
+      const double shown = is_behind ? -level : level;
+      if (level < 0 || (is_behind && level == 0)) continue;
+      line(shown);
+      ImGui::SameLine(0, ui.Px(8));
+    }
+    QuietText(ui, is_behind ? "mm behind it" : "mm before it");
+  }
+}
+
 // Part of the surface that the fit takes.
 void PatchFields(Ui& ui, EditorState& state) {
   const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
@@ -79,6 +104,10 @@ void FitFields(Ui& ui, EditorState& state) {
   Checkbox(ui, "Distances in colour", placing.shows_distances,
            "Colour the tissue in the overview by its distance from the relief.");
   if (placing.shows_distances) DistanceLegend(ui);
+  Checkbox(ui, "Distances as lines", placing.shows_contours,
+           "Draw lines of equal distance from the relief on the tissue, in the scope's picture and "
+           "the panorama.");
+  if (placing.shows_contours) ContourLegend(ui);
   Checkbox(ui, "Only its outline", placing.shows_outline,
            "The tissue is an outline in the scope's picture: compare it with what lies below.");
   double faded = 100 * placing.fade;
@@ -103,6 +132,8 @@ void StepFields(Ui& ui, EditorState& state) {
   if (NumberField(ui, "Turn", degrees, 0.1, 0.1, 90, "%.1f°",
                   "Ctrl+Shift with the same keys turns it about its middle."))
     placing.turn = RadiansFromDegrees(degrees);
+  Checkbox(ui, "Snap to the steps", placing.snaps,
+           "Drags along the arms and about the rings of the handle go by whole steps.");
   bool own_axes = placing.axes == authoring::NudgeAxes::kTissue;
   if (Checkbox(ui, "Along its own axes", own_axes,
                "Otherwise along right, down and in, as the fields above."))
