@@ -100,6 +100,12 @@ void Show(State& state) {
   state.views.shown = state.views.shown == shown ? Shown::kBoth : shown;
 }
 
+template <OverviewSide side>
+void LookFrom(State& state) {
+  state.overview_side = side;
+  ++state.overview_fits;
+}
+
 constexpr Command kViewCommands[] = {
     {"view-scope",
      "Scope alone",
@@ -140,7 +146,31 @@ constexpr Command kViewCommands[] = {
      {GLFW_KEY_HOME, true},
      {},
      InEditor,
-     [](State& state) { ++state.overview_fits; }},
+     LookFrom<OverviewSide::kWhole>},
+    {"overview-front",
+     "Front",
+     "Show the overview from the front, as the operator looks into the joint.",
+     "Views",
+     {},
+     {},
+     InEditor,
+     LookFrom<OverviewSide::kFront>},
+    {"overview-top",
+     "Top",
+     "Show the overview from above.",
+     "Views",
+     {},
+     {},
+     InEditor,
+     LookFrom<OverviewSide::kTop>},
+    {"overview-right",
+     "Right",
+     "Show the overview from the right side.",
+     "Views",
+     {},
+     {},
+     InEditor,
+     LookFrom<OverviewSide::kRight>},
 };
 
 constexpr Command kWindowCommands[] = {

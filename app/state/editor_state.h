@@ -45,6 +45,9 @@ struct TissueStep;
 // The author's way through a scene, one page of controls each.
 enum class Step { kPanorama, kDepth, kTissue, kPortals, kPractice, kExercises };
 
+// Where the overview is seen from: obliquely, as the operator looks in, from above, from the right.
+enum class OverviewSide { kWhole, kFront, kTop, kRight };
+
 // State of each step beside the document.
 struct StepStates {
   Owned<PanoramaStep> panorama;
@@ -83,7 +86,8 @@ struct EditorState {
 
   Step step = Step::kPanorama;
   ViewLayout views;
-  int overview_fits = 0;  // grows when the whole scene is to be shown in the overview
+  int overview_fits = 0;  // grows when the overview is to be shown from `overview_side`
+  OverviewSide overview_side = OverviewSide::kWhole;
   StepStates steps;
   int tissue = -1;  // chosen one, -1 none
   std::vector<simulation::TissuePreset> tissue_presets;

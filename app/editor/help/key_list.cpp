@@ -49,6 +49,8 @@ std::vector<KeyGroup> KeyGroups(std::span<const Command> commands) {
                                     {"Middle drag", "Shift it"},
                                     {"Drag the handle", "Move the chosen tissue"},
                                     {"Shift+drag the handle", "Turn the chosen tissue"},
+                                    {"Drag an arm of the handle", "Move it along an axis"},
+                                    {"Drag a ring of the handle", "Turn it about an axis"},
                                     {"Right drag the handle", "Make it larger, or smaller"},
                                     {"Drag the border", "Give one view more room"},
                                     {"Esc", "End holding, cutting and naming by clicks"}},

@@ -120,6 +120,17 @@ void CornerButtons(Ui& ui, EditorState& state, const Area& area, std::vector<con
   }
 }
 
+// Commands along the lower edge of a picture, the first one at its left.
+void SideButtons(Ui& ui, EditorState& state, const Area& area) {
+  const float edge = ui.Px(kCornerEdge);
+  ImGui::SetCursorScreenPos({area.x + edge, area.y + area.height - edge - ImGui::GetFrameHeight()});
+  for (const char* id : {"overview-front", "overview-top", "overview-right"}) {
+    CommandButton(ui, state, id);
+    ImGui::SameLine(0, ui.Px(kCornerGap));
+  }
+  ImGui::NewLine();
+}
+
 // The overview's picture and what is done to it, in the window that was begun.
 // `buttons` come before the area that takes the mouse, so that a click on one is theirs alone.
 template <class Buttons>
@@ -263,6 +274,7 @@ OverviewInput OverviewPicture(Ui& ui, EditorState& state, const Area& area, unsi
   return OverviewArea(ui, area, texture, area.width > CornerWidth(ui, state, ids) + label, [&] {
     if (handle) DrawHandle(ui, area, *handle);
     CornerButtons(ui, state, area, ids);
+    SideButtons(ui, state, area);
   });
 }
 

@@ -30,6 +30,8 @@ namespace {
 constexpr int kStillSamples = 8;  // texture samples per ray of a picture at rest
 constexpr auto kOverviewPause = std::chrono::milliseconds(200);  // between two, on a slow machine
 
+constexpr double kLandmarkReach = 8;  // px at scale 1; a click that misses the model by less counts
+
 // A practice shows the scene from outside too, and nothing is edited there.
 bool IsTissueEdited(const EditorState& state) {
   return state.step == Step::kTissue && !state.practice;
@@ -50,6 +52,20 @@ void UseBrush(EditorState& state, const std::optional<Overview::TissuePlace>& pl
     UseCutBrush(state, place->tissue, place->x_in_tissue);
   else
     AddBall(state, *state.steps.tissue->brush, place->tissue, place->x_in_tissue);
+}
+
+Overview::Side SideOf(OverviewSide side) {
+  switch (side) {
+    case OverviewSide::kFront:
+      return Overview::Side::kFront;
+    case OverviewSide::kTop:
+      return Overview::Side::kTop;
+    case OverviewSide::kRight:
+      return Overview::Side::kRight;
+    case OverviewSide::kWhole:
+      break;
+  }
+  return Overview::Side::kWhole;
 }
 
 bool Same(const Picture& a, const Picture& b) {
@@ -114,7 +130,8 @@ void Pictures::TakeTissues(const EditorState& state) {
     scope_.SetTissues(tissues, document.surfaces, looks);
     overview_.SetTissues(tissues, document.surfaces);
     shown_cuts_.assign(tissues.size(), nullptr);
-    chosen_ = outlined_ = coloured_ = -1;
+    chosen_ = coloured_ = -1;
+    left_out_.clear();
     faults_ = nullptr;
     surfaces_ = document.surfaces;
     changed_ = true;
@@ -131,14 +148,28 @@ void Pictures::TakeTissues(const EditorState& state) {
   TakeCuts(document);
 }
 
-// The tissue whose outline is drawn over the scope's picture is not in it.
-void Pictures::HideOutlined(const EditorState& state) {
-  const int wanted = IsOutlined(state) ? state.tissue : -1;
-  if (wanted == outlined_) return;
-  const int shown = std::exchange(outlined_, wanted);
-  if (shown >= 0 && shown < static_cast<int>(shown_cuts_.size())) ShowInScope(shown);
-  if (wanted >= 0) scope_.SetTissueSurface(wanted, {});
-  changed_ = true;
+// The tissue whose outline is drawn over the scope's picture is not in it; those that the author
+// hid are in neither view.
+void Pictures::HideTissues(const EditorState& state) {
+  left_out_.resize(shown_cuts_.size(), false);
+  for (std::size_t i = 0; i < left_out_.size(); ++i) {
+    const int tissue = static_cast<int>(i);
+    const bool is_hidden = IsHiddenByAuthor(state, tissue);
+    overview_.ShowTissue(tissue, !is_hidden);
+    const bool is_left_out = is_hidden || (IsOutlined(state) && tissue == state.tissue);
+    if (is_left_out == left_out_[i]) continue;
+    left_out_[i] = is_left_out;
+    if (is_left_out)
+      scope_.SetTissueSurface(tissue, {});
+    else
+      ShowInScope(tissue);
+    changed_ = true;
+  }
+}
+
+bool Pictures::IsFaded(const EditorState& state) const {
+  const auto chosen = static_cast<std::size_t>(state.tissue);
+  return FadeOf(state) > 0 && chosen < left_out_.size() && !left_out_[chosen];
 }
 
 void Pictures::ShowInScope(int tissue) {
@@ -150,8 +181,7 @@ void Pictures::ShowInScope(int tissue) {
 }
 
 void Pictures::DrawBare(const EditorState& state, int pixels) {
-  const bool is_faded = FadeOf(state) > 0 && outlined_ < 0 && !shown_cuts_.empty();
-  if (!is_faded) return bare_.reset();
+  if (!IsFaded(state)) return bare_.reset();
   scope_.SetTissueSurface(state.tissue, {});
   scope_.Render(picture_, pixels);
   bare_.emplace(scope_.ReadPixels());
@@ -247,7 +277,7 @@ void Pictures::DrawExpert(const EditorState& state, int pixels) {
 void Pictures::Take(const EditorState& state) {
   changed_ = backdrop_.Take(state, scope_, overview_) || changed_;
   TakeTissues(state);
-  HideOutlined(state);
+  HideTissues(state);
   TakeLiveTissues(state);
   const std::vector<Ball> loose = ShownLooseBodies(state);
   changed_ = scope_.SetLooseBodies(loose) || changed_;
@@ -278,7 +308,7 @@ bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
   const bool has_other_expert = expert.has_value() != expert_picture_.has_value() ||
                                 (expert && expert_picture_ && !Same(*expert, *expert_picture_));
   expert_picture_ = expert;
-  const bool is_faded = FadeOf(state) > 0 && outlined_ < 0;
+  const bool is_faded = IsFaded(state);
   // The fluid flows while something moves: villi sway and flecks drift then, and a picture at rest
   // stays as it is.
   const bool flows = state.practice && !picture.disturbances.is_moving();
@@ -333,9 +363,10 @@ bool Pictures::DrawOverview(EditorState& state, int width, int height) {
   has_overview_ = backdrop_.has_panorama();
   if (!has_overview_) return false;
   if (document_number_ != state.document_number || overview_fits_ != state.overview_fits) {
+    overview_.LookFrom(document_number_ == state.document_number ? SideOf(state.overview_side)
+                                                                 : Overview::Side::kWhole);
     document_number_ = state.document_number;
     overview_fits_ = state.overview_fits;
-    overview_.ResetCamera();
   }
   const Picture picture = ShownPicture(state, TakeOptics(state.document()));
   if (!Same(picture, overview_tools_)) {
@@ -352,6 +383,11 @@ bool Pictures::DrawOverview(EditorState& state, int width, int height) {
   ShowPlaces(state);
   ShowFaults(state);
   ShowDistances(state);
+  // Landmarks are clicked on the model, which rods and labels hide.
+  overview_.ShowTools(!PlacesLandmarks(state));
+  const HandPlacing& placing = state.steps.tissue->placing;
+  overview_.snap_step = placing.snaps ? placing.step : 0;
+  overview_.snap_turn = placing.snaps ? placing.turn : 0;
   overview_.ShowArms(state.steps.tissue->placing.axes == authoring::NudgeAxes::kTissue
                          ? Overview::Arms::kOwn
                          : Overview::Arms::kPortal);
@@ -484,7 +520,7 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input, do
                 place ? std::optional(TissueHit{place->tissue, place->x_in_tissue}) : std::nullopt);
   }
   if (input.clicked && PlacesLandmarks(state)) {
-    const auto place = overview_.PickTissue(event.x, event.y);
+    const auto place = overview_.PickTissueNear(event.x, event.y, kLandmarkReach * scale);
     // A model point that waits for its partner is followed by a click on the relief.
     if (place && !state.steps.tissue->landmarks.model) {
       TakeModelPoint(state, place->tissue, place->x_in_tissue);

@@ -93,7 +93,8 @@ class Pictures {
   void TakeTissues(const EditorState& state);
   void TakeCuts(const authoring::Document& document);
   void ShowPlaces(const EditorState& state);
-  void HideOutlined(const EditorState& state);
+  void HideTissues(const EditorState& state);
+  bool IsFaded(const EditorState& state) const;
   // The scope's picture shows a tissue of the document as its cuts leave it.
   void ShowInScope(int tissue);
   void ShowFaults(const EditorState& state);
@@ -153,7 +154,7 @@ class Pictures {
   std::shared_ptr<const authoring::SurfaceFaults> faults_;    // those that the overview shows
   std::shared_ptr<const std::vector<glm::dvec3>> distances_;  // colours of `coloured_`
   int coloured_ = -1;           // tissue in the colours of its distances, -1 none
-  int outlined_ = -1;           // tissue that the scope's picture leaves out, -1 none
+  std::vector<bool> left_out_;  // one per tissue: the scope's picture leaves it out
   const void* live_ = nullptr;  // identity of the practice or track whose bodies are shown
   LiveTissues live_tissues_;
   int chosen_ = -1, document_number_ = -1, overview_fits_ = 0;

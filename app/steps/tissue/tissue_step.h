@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -51,6 +52,7 @@ struct TissueStep {
   std::optional<BallKind> brush;  // a click on tissue in the overview puts a ball there
   double ball_radius = 2e-3;      // m, of the next one
   CutBrush cut_brush;
+  std::set<std::string> hidden;  // names of tissues that the author's views leave out
   LandmarkMode landmarks;
   HandPlacing placing;
   Owned<ModelShelf> shelf;      // library of models and tears (tissue_library.h)
@@ -75,6 +77,10 @@ void TissueLibraryFields(Ui& ui, EditorState& state);
 void TissueTearFields(Ui& ui, EditorState& state);  // kinds of tears, on the Cut page
 void SolidFields(Ui& ui, EditorState& state);       // parts of the chosen solid
 void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind);
+
+// The eye of the list of tissues. A practice and an exercise show every tissue.
+bool IsHiddenByAuthor(const EditorState& state, int tissue);
+void ToggleHidden(EditorState& state, int tissue);
 
 // Asks for the file, then for its unit.
 void BrowseForSurface(EditorState& state);

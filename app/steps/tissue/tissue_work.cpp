@@ -189,4 +189,18 @@ void TetrahedraliseTissue(EditorState& state) {
   });
 }
 
+bool IsHiddenByAuthor(const EditorState& state, int tissue) {
+  const auto& tissues = state.document().scene.tissues;
+  return InEditor(state) && state.step != Step::kPractice && state.step != Step::kExercises &&
+         tissue >= 0 && tissue < static_cast<int>(tissues.size()) &&
+         state.steps.tissue->hidden.contains(tissues[static_cast<std::size_t>(tissue)].name);
+}
+
+void ToggleHidden(EditorState& state, int tissue) {
+  std::set<std::string>& hidden = state.steps.tissue->hidden;
+  const std::string& name =
+      state.document().scene.tissues.at(static_cast<std::size_t>(tissue)).name;
+  if (hidden.erase(name) == 0) hidden.insert(name);
+}
+
 }  // namespace arthro::app

@@ -237,14 +237,13 @@ void Overview::SetTools(const OverviewTools& tools) {
   SetData(*p.scope, MakeBars({{-kRodBehindPortal * along, tip}}, kScopeRadius, 20));
   SetData(*p.cone,
           MakeBars(ViewConeLines(tools.scope, tools.field_of_view, p.radius), kLineRadius, 6));
-  p.scope->VisibilityOn();
-  p.cone->VisibilityOn();
+  p.has_tools = true;
 
   const double inside =
       tools.instrument ? glm::distance(tools.instrument->proxy, tools.instrument->portal) : 0.0;
-  p.probe->SetVisibility(inside > 1e-6 ? 1 : 0);
-  p.moving->SetVisibility(inside > 1e-6 ? 1 : 0);
-  if (inside > 1e-6) {
+  p.has_probe = inside > 1e-6;
+  p.ShowRods();
+  if (p.has_probe) {
     const InstrumentView& instrument = *tools.instrument;
     // No lens bends it here, so rings may be sparse.
     const ToolMesh tool = MakeToolMesh(instrument.kind, 4e-3, inside + kRodBehindPortal);
@@ -259,6 +258,23 @@ void Overview::SetTools(const OverviewTools& tools) {
   p.changed = true;
 }
 
+void Overview::Parts::ShowRods() {
+  for (vtkActor* of_scope : {scope.Get(), cone.Get()})
+    of_scope->SetVisibility(shows_tools && has_tools ? 1 : 0);
+  for (vtkActor* of_probe : {probe.Get(), moving.Get()})
+    of_probe->SetVisibility(shows_tools && has_probe ? 1 : 0);
+  for (vtkActor* portal : {scope_portal.Get(), instrument_portal.Get()})
+    portal->SetVisibility(shows_tools ? 1 : 0);
+  for (const auto& label : labels) label->SetVisibility(shows_tools ? 1 : 0);
+}
+
+void Overview::ShowTools(bool is_shown) {
+  if (parts_->shows_tools == is_shown) return;
+  parts_->shows_tools = is_shown;
+  parts_->ShowRods();
+  parts_->changed = true;
+}
+
 void Overview::Handle(const PointerEvent& event) {
   Parts& p = *parts_;
   p.interactor->SetEventInformationFlipY(static_cast<int>(event.x), static_cast<int>(event.y),
@@ -268,6 +284,10 @@ void Overview::Handle(const PointerEvent& event) {
   if (event.kind == Kind::kMove) {
     if (p.dragged_arm >= 0) {
       DragArm(event);
+      return;
+    }
+    if (p.dragged_ring >= 0) {
+      DragRing(event);
       return;
     }
     p.interactor->InvokeEvent(vtkCommand::MouseMoveEvent);
@@ -286,7 +306,10 @@ void Overview::Handle(const PointerEvent& event) {
     const auto handle = HandlePlace();
     const bool is_on_handle =
         handle && glm::distance(*handle, {event.x, event.y}) <= kHandleRadius * handle_scale;
+    if (!is_on_handle && DragRing(event)) return;
     p.box->SetProcessEvents(is_on_handle ? 1 : 0);
+  } else if (DragRing(event)) {
+    return;
   }
   p.dragging = press;
   if (event.button == Button::kLeft)
@@ -300,14 +323,28 @@ void Overview::Handle(const PointerEvent& event) {
                                     : vtkCommand::RightButtonReleaseEvent);
 }
 
-void Overview::ResetCamera() {
+void Overview::LookFrom(Side side) {
   Parts& p = *parts_;
-  // From behind the operator's right shoulder, into the bowl.
   const double r = p.radius;
+  constexpr double kAway = 3.3;  // in radii, as far as the oblique view
   vtkCamera* camera = p.renderer->GetActiveCamera();
   camera->SetFocalPoint(0.0, 0.06 * r, 0.45 * r);
-  camera->SetPosition(1.3 * r, -1.55 * r, -2.15 * r);
   camera->SetViewUp(0.0, -1.0, 0.0);
+  switch (side) {
+    case Side::kWhole:  // from behind the operator's right shoulder, into the bowl
+      camera->SetPosition(1.3 * r, -1.55 * r, -2.15 * r);
+      break;
+    case Side::kFront:
+      camera->SetPosition(0.0, 0.06 * r, (0.45 - kAway) * r);
+      break;
+    case Side::kTop:
+      camera->SetPosition(0.0, (0.06 - kAway) * r, 0.45 * r);
+      camera->SetViewUp(0.0, 0.0, 1.0);
+      break;
+    case Side::kRight:
+      camera->SetPosition(kAway * r, 0.06 * r, 0.45 * r);
+      break;
+  }
   p.FitShorterSide();
   p.changed = true;
 }

@@ -67,6 +67,10 @@ class Overview {
   static constexpr std::array<const char*, 5> kLabels = {"scope", "instrument", "x right", "y down",
                                                          "z in"};
   void SetLabels(const std::array<std::string, kLabels.size()>& words);
+  // Rods, portals and labels; without them nothing hides the tissues.
+  void ShowTools(bool is_shown);
+  // A hidden tissue is neither drawn nor picked, and has no box.
+  void ShowTissue(int index, bool is_shown);
 
   // Puts the box around a tissue; -1 removes it. A left drag that begins on its handle, in the
   // middle of the box, moves it across the picture, with Shift or Control turns it; a right drag
@@ -81,6 +85,11 @@ class Overview {
   // begins on the end of an arm moves the tissue along it.
   enum class Arms { kPortal, kOwn };
   void ShowArms(Arms arms);
+  // Points along the ring about an axis of the handle, px from the picture's top left; empty where
+  // no tissue is chosen. A left drag that begins on a ring turns the tissue about that axis.
+  std::vector<glm::dvec2> RingPlaces(int axis) const;
+  // Steps of drags along arms (m) and about rings (rad); 0: none.
+  double snap_step = 0, snap_turn = 0;
   // Ends of the arms, px from the picture's top left; empty where no tissue is chosen.
   std::vector<glm::dvec2> ArmPlaces() const;
   // The handle, px from the picture's top left; nothing where none is chosen or it is out of sight.
@@ -101,6 +110,8 @@ class Overview {
     glm::dvec3 x_in_tissue{0.0};
   };
   std::optional<TissuePlace> PickTissue(double x, double y) const;
+  // The same for a hand that misses by up to `radius` px: the nearest pixel that shows tissue.
+  std::optional<TissuePlace> PickTissueNear(double x, double y, double radius) const;
   // Line of sight through a pixel: from the camera, unit direction, pixels per radian there.
   struct Line {
     glm::dvec3 eye{0.0}, direction{0.0};
@@ -117,7 +128,11 @@ class Overview {
   // Pointer events over the picture, and those of a drag that began there. Beside the handle: a
   // left drag turns the view, a middle drag shifts it, wheel and right drag zoom.
   void Handle(const PointerEvent& event);
-  void ResetCamera();
+  // The whole scene obliquely, or along an axis of the portal frame: as the operator looks in, from
+  // above, and from the right.
+  enum class Side { kWhole, kFront, kTop, kRight };
+  void LookFrom(Side side);
+  void ResetCamera() { LookFrom(Side::kWhole); }
 
   // Draws if the scene or the size changed; returns whether it drew.
   bool Render(int width, int height);
@@ -127,6 +142,9 @@ class Overview {
  private:
   // True where the event belongs to a drag along an arm.
   bool DragArm(const PointerEvent& event);
+  bool DragRing(const PointerEvent& event);
+  double RingAngle(const glm::dvec2& at) const;
+  void PlaceHeld(const Pose& pose, bool is_finished);
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

@@ -1,5 +1,5 @@
 // Internals of Overview: the contents of its window. Portal frame, m. Tissues, their box and their
-// balls are in overview_tissues.cpp.
+// balls are in overview_tissues.cpp, arms and rings of the handle in overview_gizmo.cpp.
 #pragma once
 
 #include <vector>
@@ -36,6 +36,7 @@ struct Overview::Parts {
     vtkSmartPointer<vtkPolyData> data;
     SurfaceMesh surface;
     Pose pose;
+    bool is_hidden = false;
   };
 
   vtkNew<ContextRenderWindow> window;
@@ -71,8 +72,10 @@ struct Overview::Parts {
   int marked = -1;
   // Arms of the handle, and the drag that began on one of them.
   Arms arms = Arms::kPortal;
-  std::array<vtkSmartPointer<vtkActor>, 3> arm_actors;
-  int dragged_arm = -1;
+  std::array<vtkSmartPointer<vtkActor>, 3> arm_actors, ring_actors;
+  int dragged_arm = -1, dragged_ring = -1;
+  glm::dvec3 ring_from{0.0};  // place on the ring at which the drag began
+  double ring_start = 0;      // rad, of the pointer there
   glm::dvec2 drag_from{0.0};
   Pose drag_pose;
 
@@ -87,6 +90,7 @@ struct Overview::Parts {
   int chosen = -1;
   double radius = 0.05;
   glm::ivec2 panorama_size{0};
+  bool shows_tools = true, has_tools = false, has_probe = false;
   bool changed = true;
   bool dragging = false;
   int width = 0, height = 0;
@@ -98,8 +102,11 @@ struct Overview::Parts {
   void BuildScene();
   void PlaceBox();
   void PlaceArms();
-  glm::dvec3 MiddleOf(const Model& model) const;         // portal frame
-  glm::dvec3 ArmOf(const Model& model, int axis) const;  // from its middle to the arm's end
+  glm::dvec3 MiddleOf(const Model& model) const;          // portal frame
+  glm::dvec3 AxisOf(const Model& model, int axis) const;  // unit
+  glm::dvec3 ArmOf(const Model& model, int axis) const;   // from its middle to the arm's end
+  std::vector<glm::dvec3> RingOf(const Model& model, int axis) const;
+  void ShowRods();
   void FitShorterSide();
   void ScaleLabels(double scale);
 };

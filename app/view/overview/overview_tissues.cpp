@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -52,7 +53,7 @@ Pose PoseOf(const vtkMatrix4x4& matrix) {
 Overview::Parts::Model* Overview::Parts::Held() {
   if (chosen < 0) return nullptr;
   Model& held_model = part.actor ? part : tissues[std::size_t(chosen)];
-  return held_model.surface.triangles.empty() ? nullptr : &held_model;
+  return held_model.surface.triangles.empty() || held_model.is_hidden ? nullptr : &held_model;
 }
 
 void Overview::Parts::PlaceBox() {
@@ -138,6 +139,16 @@ void Overview::SetTissueSurface(int index, const SurfaceMesh& surface,
   ColourVertices(*model.data, {own[0], own[1], own[2]}, kFreshColour, fresh);
   SetData(*model.actor, model.data);
   parts_->changed = true;
+}
+
+void Overview::ShowTissue(int index, bool is_shown) {
+  Parts& p = *parts_;
+  auto& model = p.tissues.at(static_cast<std::size_t>(index));
+  if (model.is_hidden != is_shown) return;
+  model.is_hidden = !is_shown;
+  model.actor->SetVisibility(is_shown ? 1 : 0);
+  if (index == p.chosen) p.PlaceBox();
+  p.changed = true;
 }
 
 void Overview::ChooseTissue(int index) {
@@ -291,12 +302,25 @@ std::optional<Overview::TissuePlace> Overview::PickTissue(double x, double y) co
   return PickAlong(near, far - near);
 }
 
+std::optional<Overview::TissuePlace> Overview::PickTissueNear(double x, double y,
+                                                              double radius) const {
+  constexpr int kAround = 16;
+  for (double away = 0; away <= radius; away += 1.0)
+    for (int i = 0; i < (away > 0 ? kAround : 1); ++i) {
+      const double turn = 2 * std::numbers::pi * i / kAround;
+      if (const auto place = PickTissue(x + away * std::cos(turn), y + away * std::sin(turn)))
+        return place;
+    }
+  return std::nullopt;
+}
+
 std::optional<Overview::TissuePlace> Overview::PickAlong(const glm::dvec3& start,
                                                          const glm::dvec3& line) const {
   const Parts& p = *parts_;
   std::optional<TissuePlace> place;
   double nearest = 1.0;  // share of the line
   for (std::size_t i = 0; i < p.tissues.size(); ++i) {
+    if (p.tissues[i].is_hidden) continue;
     const Pose& pose = p.tissues[i].pose;
     const auto own = [&](const glm::dvec3& world) {
       return (glm::conjugate(pose.quaternion) * (world - pose.position)) / pose.scale;

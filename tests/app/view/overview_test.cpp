@@ -1,6 +1,10 @@
 // The author's view: drawn only after a change, and a box that poses the chosen tissue.
 #include "app/view/overview/overview.h"
 
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -223,6 +227,127 @@ TEST_F(OverviewTest, ADragOnAnArmMovesAlongItsAxisAlone) {
   }
   overview_->ChooseTissue(-1);
   EXPECT_TRUE(overview_->ArmPlaces().empty());
+}
+
+// Seen along an axis, the ring about it is a circle on which an angle is seen as it is.
+TEST_F(OverviewTest, ADragOnARingTurnsAboutItsAxisAlone) {
+  overview_->ChooseTissue(0);
+  overview_->LookFrom(Overview::Side::kFront);
+  overview_->Render(kOverviewSize, kOverviewSize);
+  const Pose before = scene_.scene.tissues[0].pose;
+  const auto ring = overview_->RingPlaces(2);
+  ASSERT_EQ(ring.size(), 65u);
+  // A sixteenth of a turn is four of its points.
+  Drag(Button::kLeft, ring[8], ring[12]);
+  EXPECT_EQ(finished_, 1);
+  EXPECT_NEAR(glm::angle(pose_.quaternion), std::numbers::pi / 8, 0.01);
+  EXPECT_NEAR(std::abs(glm::axis(pose_.quaternion).z), 1, 1e-6);
+  EXPECT_EQ(pose_.scale, before.scale);
+  // The middle of the tissue stays.
+  const auto middle_of = [&](const Pose& pose) {
+    glm::dvec3 low(1), high(-1);
+    for (const glm::dvec3& x : scene_.surfaces[0]->vertices)
+      low = glm::min(low, x), high = glm::max(high, x);
+    return pose * (0.5 * (low + high));
+  };
+  EXPECT_LT(glm::distance(middle_of(pose_), middle_of(before)), 1e-6);
+  // The ring about x is seen edge-on from the front; a drag along it turns all the same.
+  calls_ = finished_ = 0;
+  overview_->SetTissuePose(0, before);
+  const auto edge = overview_->RingPlaces(0);
+  Drag(Button::kLeft, edge[40], edge[40] + glm::dvec2(0, 6));
+  EXPECT_EQ(finished_, 1);
+  EXPECT_NEAR(std::abs(glm::axis(pose_.quaternion).x), 1, 1e-6);
+}
+
+TEST_F(OverviewTest, DragsOnArmsAndRingsSnapToTheSteps) {
+  overview_->ChooseTissue(0);
+  overview_->LookFrom(Overview::Side::kFront);
+  overview_->Render(kOverviewSize, kOverviewSize);
+  overview_->snap_step = 1e-3;
+  overview_->snap_turn = RadiansFromDegrees(15);
+  const Pose before = scene_.scene.tissues[0].pose;
+  const auto ring = overview_->RingPlaces(2);
+  Drag(Button::kLeft, ring[8], ring[12]);  // 22.5 degrees
+  const double degrees = DegreesFromRadians(glm::angle(pose_.quaternion));
+  EXPECT_NEAR(std::remainder(degrees, 15), 0, 1e-6) << degrees;
+  EXPECT_GT(degrees, 1);
+  overview_->SetTissuePose(0, before);
+  overview_->Render(kOverviewSize, kOverviewSize);
+  const auto arm = overview_->ArmPlaces()[0];
+  Drag(Button::kLeft, arm, arm + glm::dvec2(11, 2));
+  const double mm = MmFromMetres(pose_.position.x - before.position.x);
+  EXPECT_NEAR(mm, std::round(mm), 1e-6) << mm;
+  EXPECT_GT(mm, 0.5);
+}
+
+TEST_F(OverviewTest, LooksAlongTheAxesOfThePortalFrame) {
+  const glm::dvec3 middle(0.0, 0.003, 0.0225);
+  const auto way = [&](const glm::dvec3& along) {
+    const auto from = overview_->PixelOf(middle), to = overview_->PixelOf(middle + 1e-3 * along);
+    return to && from ? *to - *from : glm::dvec2(1e6);
+  };
+  const glm::dvec3 right(1, 0, 0), down(0, 1, 0), in(0, 0, 1);
+  const auto look = [&](Overview::Side side) {
+    overview_->LookFrom(side);
+    overview_->Render(kOverviewSize, kOverviewSize);
+  };
+  look(Overview::Side::kFront);
+  EXPECT_GT(way(right).x, 1);
+  EXPECT_GT(way(down).y, 1);
+  EXPECT_LT(glm::length(way(in)), 0.1);
+  look(Overview::Side::kTop);
+  EXPECT_GT(way(right).x, 1);
+  EXPECT_LT(way(in).y, -1);
+  EXPECT_LT(glm::length(way(down)), 0.1);
+  look(Overview::Side::kRight);
+  EXPECT_GT(way(in).x, 1);
+  EXPECT_GT(way(down).y, 1);
+  EXPECT_LT(glm::length(way(right)), 0.1);
+}
+
+TEST_F(OverviewTest, AHiddenTissueIsNeitherDrawnNorPicked) {
+  const ColourImage with = overview_->ReadPixels();
+  ASSERT_TRUE(overview_->PickTissue(middle_.x, middle_.y));
+  overview_->ShowTissue(0, false);
+  EXPECT_TRUE(overview_->Render(kOverviewSize, kOverviewSize));
+  EXPECT_FALSE(overview_->PickTissue(middle_.x, middle_.y));
+  EXPECT_NE(overview_->ReadPixels().rgb, with.rgb);
+  overview_->ChooseTissue(0);
+  EXPECT_FALSE(overview_->HandlePlace());
+  overview_->ChooseTissue(-1);
+  overview_->ShowTissue(0, true);
+  overview_->Render(kOverviewSize, kOverviewSize);
+  EXPECT_EQ(overview_->ReadPixels().rgb, with.rgb);
+}
+
+TEST_F(OverviewTest, WithoutToolsRodsAndLabelsAreGoneUntilTheyAreShownAgain) {
+  overview_->SetTools({{{0.0, 0.0, 0.02}, {0, 0, 1}, {0, -1, 0}}, 1.5, std::nullopt});
+  overview_->Render(kOverviewSize, kOverviewSize);
+  const ColourImage with = overview_->ReadPixels();
+  overview_->ShowTools(false);
+  EXPECT_TRUE(overview_->Render(kOverviewSize, kOverviewSize));
+  const ColourImage without = overview_->ReadPixels();
+  EXPECT_NE(without.rgb, with.rgb);
+  // A scope that moves stays hidden.
+  overview_->SetTools({{{0.0, 0.01, 0.03}, {0, 0, 1}, {0, -1, 0}}, 1.5, std::nullopt});
+  overview_->Render(kOverviewSize, kOverviewSize);
+  EXPECT_EQ(overview_->ReadPixels().rgb, without.rgb);
+  overview_->SetTools({{{0.0, 0.0, 0.02}, {0, 0, 1}, {0, -1, 0}}, 1.5, std::nullopt});
+  overview_->ShowTools(true);
+  overview_->Render(kOverviewSize, kOverviewSize);
+  EXPECT_EQ(overview_->ReadPixels().rgb, with.rgb);
+}
+
+// The tissue is a few pixels wide in a small overview.
+TEST_F(OverviewTest, AClickBesideATissueTakesItsNearestPlace) {
+  double x = middle_.x;
+  while (overview_->PickTissue(x, middle_.y)) x += 1;
+  EXPECT_FALSE(overview_->PickTissue(x + 5, middle_.y));
+  const auto place = overview_->PickTissueNear(x + 5, middle_.y, 10);
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->tissue, 0);
+  EXPECT_FALSE(overview_->PickTissueNear(x + 25, middle_.y, 10));
 }
 
 TEST_F(OverviewTest, APartHasTheHandleInsteadOfItsTissue) {

@@ -209,6 +209,42 @@ void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   CommandButton(ui, state, "remove-tissue", {half, 0});
 }
 
+// An eye that shows and hides a tissue, open or crossed out.
+void Eye(Ui& ui, EditorState& state, int tissue, const std::string& name) {
+  const float height = ImGui::GetTextLineHeight(), width = 1.5f * height;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const bool is_hidden = IsHiddenByAuthor(state, tissue);
+  if (ImGui::InvisibleButton("eye", {width, height})) ToggleHidden(state, tissue);
+  RecordItem(ui, "Show " + name, true, is_hidden ? "off" : "on");
+  Tooltip(ui, "Show or hide the tissue in both views. A practice shows every tissue.");
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImVec2 middle{at.x + 0.5f * width, at.y + 0.5f * height};
+  const float half = 0.45f * width, bow = 0.55f * height;
+  const unsigned colour = is_hidden ? kQuiet : kBright;
+  for (const float side : {-1.0f, 1.0f})
+    draw->AddBezierQuadratic({middle.x - half, middle.y}, {middle.x, middle.y + side * 1.4f * bow},
+                             {middle.x + half, middle.y}, colour, ui.Px(1.5));
+  if (is_hidden)
+    draw->AddLine({middle.x - 0.7f * half, middle.y + bow},
+                  {middle.x + 0.7f * half, middle.y - bow}, colour, ui.Px(1.5));
+  else
+    draw->AddCircleFilled(middle, 0.22f * height, colour);
+}
+
+void TissueRow(Ui& ui, EditorState& state, int tissue, const std::string& name) {
+  ImGui::PushID(tissue);
+  Eye(ui, state, tissue, name);
+  ImGui::SameLine(0, ui.Px(6));
+  const PaddedRow padded(ui);
+  if (ImGui::Selectable(name.c_str(), state.tissue == tissue)) {
+    if (state.tissue != tissue)
+      state.steps.tissue->ball = state.steps.tissue->cut = state.steps.tissue->region = -1;
+    state.tissue = tissue;
+  }
+  RecordItem(ui, name, true, state.tissue == tissue ? "on" : "off");
+  ImGui::PopID();
+}
+
 }  // namespace
 
 void TissuePanel(Ui& ui, EditorState& state, const std::function<void()>& below_poke) {
@@ -225,18 +261,8 @@ void TissuePanel(Ui& ui, EditorState& state, const std::function<void()>& below_
               "the library.");
     return;
   }
-  for (int i = 0; i < static_cast<int>(tissues.size()); ++i) {
-    const std::string& name = tissues[static_cast<std::size_t>(i)].name;
-    ImGui::PushID(i);
-    const PaddedRow padded(ui);
-    if (ImGui::Selectable(name.c_str(), state.tissue == i)) {
-      if (state.tissue != i)
-        state.steps.tissue->ball = state.steps.tissue->cut = state.steps.tissue->region = -1;
-      state.tissue = i;
-    }
-    RecordItem(ui, name, true, state.tissue == i ? "on" : "off");
-    ImGui::PopID();
-  }
+  for (int i = 0; i < static_cast<int>(tissues.size()); ++i)
+    TissueRow(ui, state, i, tissues[static_cast<std::size_t>(i)].name);
   if (state.tissue < 0 || state.tissue >= static_cast<int>(tissues.size())) return;
   ImGui::Separator();
   const Tissue tissue = tissues[static_cast<std::size_t>(state.tissue)];
