@@ -122,7 +122,7 @@ void Landmarks(Ui& ui, const SceneViews& views, const Layout& layout, const Pict
                  [&](const glm::dvec3& x) { return pictures.OverviewPixelOf(x); });
 }
 
-// Where the shafts of scope and instrument are in conflict.
+// Marks where the shafts of scope and instrument are in conflict.
 void Conflicts(Ui& ui, const SceneViews& views, const Layout& layout, const PictureInput& input) {
   Pictures& pictures = views.pictures;
   if (layout.shows_picture)

@@ -22,8 +22,8 @@ std::vector<HelpPage> HelpPages();
 
 // Target of a link: another page, or a file or an address beyond them.
 struct HelpLink {
-  std::string page;    // of HelpPages; empty: `target` is none of them
-  std::string anchor;  // of a heading of the page (AnchorOfHeading); empty: its beginning
+  std::string page;    // name in HelpPages; empty: `target` is none of them
+  std::string anchor;  // heading of the page (AnchorOfHeading); empty: its beginning
   std::string target;  // path of the file, or address
 };
 HelpLink LinkFrom(const std::string& page, const std::string& target);

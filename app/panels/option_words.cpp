@@ -129,6 +129,11 @@ constexpr FieldLabel kFields[] = {
     {"refresh_iterations", "Steps before a new factor is made"},
     {"coupling_tolerance", "Error of the stiffness felt"},
     {"cut_spacing", "Resolution of cuts"},
+    // Solution of a step of the tissue.
+    {"max_iterations", "Most iterations of a system"},
+    {"max_newton", "Most Newton iterations of a step"},
+    {"max_speed", "Largest speed of the tissue"},
+    {"max_work", "Most work of a step"},
 };
 
 struct ChoiceLabel {

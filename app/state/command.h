@@ -30,7 +30,7 @@ struct Command {
   void (*run)(EditorState&);
   // Sentence that says why it cannot be called, where nothing else stands in its way.
   const char* needs = "";
-  // What a script may write after its name ("LEFT TOP RIGHT BOTTOM"), and what it does with that.
+  // Words that a script may write after its name ("LEFT TOP RIGHT BOTTOM"), and what they do.
   // `run_with` throws Error(kBadArgument) for arguments of another form. "": only a file.
   const char* arguments = "";
   void (*run_with)(EditorState&, const CommandArguments&) = nullptr;

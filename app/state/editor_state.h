@@ -45,7 +45,8 @@ struct TissueStep;
 // The author's way through a scene, one page of controls each.
 enum class Step { kPanorama, kDepth, kTissue, kPortals, kPractice, kExercises };
 
-// Where the overview is seen from: obliquely, as the operator looks in, from above, from the right.
+// Side from which the overview is seen: obliquely, as the operator looks in, from above, from the
+// right.
 enum class OverviewSide { kWhole, kFront, kTop, kRight };
 
 // State of each step beside the document.

@@ -27,7 +27,7 @@ inline constexpr std::array kContourLevels = {-2e-3, -1e-3, -0.5e-3, 0.0, 0.5e-3
 
 struct ContourSegment {
   glm::dvec3 from{0.0}, to{0.0};
-  glm::dvec3 normal{0.0};  // of its triangle, outwards; not of unit length
+  glm::dvec3 normal{0.0};  // outward normal of its triangle; not of unit length
 };
 
 // One list per level of `levels`, in the frame of the surface. `distances`: one per vertex; no line

@@ -57,11 +57,13 @@ std::string Plain(const std::string& literal) {
   return text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
-// A text for people: words with a blank or a capital, and no name of a file, key or function.
+// A text for people: words with a blank or a capital, and no name of a file, key, function or value
+// of a script.
 bool IsForPeople(const std::string& text) {
-  static const std::regex two_letters("[A-Za-z\\x80-\\xff]{2}"), identifier("[a-z0-9_.+*/|=-]*"),
-      call("gl[A-Z].*|GLFW.*|XDG.*|HOME|LANG.*|LC_.*"), unit("[{}%. 0-9a-z³°/×µ]{0,12}"),
-      raw(".*%[.0-9]*[a-z].*|arthroscene:.*|.*\\.(po|json|png|vtu)");
+  static const std::regex two_letters("[A-Za-z]{2}"), identifier("[a-z0-9_.+*/|=-]*"),
+      call("gl[A-Z].*|GLFW.*|XDG.*|HOME|LANG.*|LC_.*|([A-Z_]+ ?)+(…)?"),
+      unit("[{}%. 0-9a-z³°/×µ]{0,12}"),
+      raw(".*%[.0-9]*[a-z].*|arthroscene:.*|.*\\.(po|json|png|vtu|html)|.*\\[\\{\\}\\]");
   // Identities of ImGui's windows, tables and lists.
   static const std::set<std::string> kHidden = {
       "file menu", "start content", "overview mouse", "depth board", "depth map", "inset overview",
@@ -73,7 +75,7 @@ bool IsForPeople(const std::string& text) {
       "session-XXXXXX", "a number that is shown needs a range",
       "the script ended with a message: {}: {}",
       "# The hands of a practice follow time and are not here; practise --log records them.",
-      "insertion,roll_deg,u_px,v_px"};
+      "insertion,roll_deg,u_px,v_px", "drag {} {} {}"};
   const std::string words = std::regex_replace(text, std::regex("\\{\\}"), "");
   return std::regex_search(words, two_letters) && !std::regex_match(text, identifier) &&
          !std::regex_match(text, call) && !std::regex_match(text, unit) &&
@@ -94,7 +96,7 @@ std::set<std::string> EnglishOf(std::string_view table) {
       text += (*it)[1].str();
     const std::string plain = Plain(text);
     all.insert(plain);
-    std::vector<std::size_t> ends = {0};  // of the values; the text's own ends
+    std::vector<std::size_t> ends = {0};  // ends of the values; the text's own ends
     for (std::size_t value = plain.find("{}"); value != std::string::npos;
          value = plain.find("{}", value + 2))
       ends.push_back(value + 2);

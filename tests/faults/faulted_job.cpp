@@ -21,6 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
+const char* const kDemo = ARTHRO_SOURCE_DIR "/resources/demo";
+const char* const kShort = "periscope-30";  // exercise of the demo that a robot ends in 11 s
+
 std::string To(const char* name) { return std::string("../out/") + name; }
 
 // Two databases: one to read and change, and the export of another trainee's attempts.
@@ -74,6 +77,12 @@ void MakeScript(const Samples& samples) {
  {"model": [-0.006, 0, 0], "place": {"position": [-0.0059, 0, 0.031]}},
  {"model": [0, 0.006, 0], "place": {"position": [0, 0.0061, 0.031]}},
  {"model": [0, 0, -0.006], "place": {"position": [0, 0, 0.0252]}}]})";
+}
+
+void MakeAttempt(const Samples& samples) {
+  const ChildRun made =
+      RunChild(samples.CommandOf({"robot", kDemo, "--exercise", kShort, "-o", "robot.attempt"}));
+  if (made.exit_code != 0) throw std::runtime_error("no attempt: " + made.err);
 }
 
 // Arguments with others behind them: another result of the same job.
@@ -163,6 +172,8 @@ std::vector<FaultedJob> PracticeJobs() {
   add({"demo", {"demo", "-o", To("demo"), "--pictures", "2", "--size", "64"}, {}, {"demo/"}});
   add({"help", {"help", "troubleshooting"}, {}, {}});
   const Words replay{"replay", "knee", "session.bin", "-o", To("f.csv"), "--report", To("r.json")};
+  const Words robot{"robot", kDemo, "--exercise", kShort, "-o", To("r.attempt")};
+  add({"robot", robot, Also(robot, {"--seed", "2"}), {"r.attempt"}});
   add({"replay",
        replay,
        Also(replay, {"--static-friction", "0"}),
@@ -197,6 +208,9 @@ std::vector<FaultedJob> MeasuringJobs() {
         To("a.json"), "--harm-force", "1"},
        {"a.csv", "a.html", "a.json"},
        {"assess", "knee", "trace.csv", "-o", "-"}});
+  const Words attempt{"assess",   kDemo,        "robot.attempt", "--exercise", kShort,
+                      "--report", To("r.html"), "--json",        To("r.json")};
+  add({"assess an attempt", attempt, Also(attempt, {"-o", To("r.csv")}), {"r.html", "r.json"}});
   add({"bench",
        {"bench", "micro", "--quick", "--only", "scope", "--json", To("b.json"), "--plot",
         To("b.svg")},
@@ -255,9 +269,12 @@ std::vector<FaultedJob> RecordsJobs() {
                   Also({"records", "backup", "-o", To("backup.sqlite")}, source),
                   {},
                   {"backup.sqlite"}});
+  for (const char* const reader : {"list", "check", "reference"})
+    jobs.push_back({std::string("records ") + reader, Also({"records", reader}, source), {}, {}});
   for (const auto& [name, arguments] :
        {std::pair<const char*, Words>{"records import", {"records", "import", "export.json"}},
-        {"records trainee", {"records", "trainee", "add", "T-9"}}}) {
+        {"records trainee", {"records", "trainee", "add", "T-9"}},
+        {"records erase", {"records", "erase", "records", "--really", "records"}}}) {
     FaultedJob job{name, Also(arguments, changed), {}, {"records.sqlite"}};
     job.in_place = "records.sqlite";
     job.check = Also({"records", "check"}, changed);
@@ -272,6 +289,7 @@ std::vector<FaultedJob> EveryFaultedJob(const Samples& samples) {
   MakeRecords(samples);
   MakePictures(samples);
   MakeScript(samples);
+  MakeAttempt(samples);
   fs::copy_file(fs::path(ARTHRO_PROGRAM).replace_filename("arthroscene-bench"),
                 samples.in() / "../bin/arthroscene-bench");
   std::vector<FaultedJob> all;

@@ -75,7 +75,7 @@ TEST_F(ManualHtml, OnePageHoldsEveryPageAndTheTargetOfEachLink) {
     ++count;
     EXPECT_TRUE(link.starts_with('#') && ids.contains(link.substr(1))) << link;
   }
-  EXPECT_GT(count, 50u);
+  EXPECT_GT(count, 30u) << "different places that are linked";
 }
 
 }  // namespace

@@ -18,7 +18,9 @@ inline app::AttemptReport SampleReport(double seconds = 74) {
   report.station = "station-1";
   report.rig = "mouse";
   report.program = "arthroscene 0.1.0";
-  report.targets = {"spine", "edge"};
+  report.targets.resize(2);
+  report.targets[0].id = "spine";
+  report.targets[1].id = "edge";
   app::AttemptRecord& attempt = report.attempt;
   attempt.id = "00000000-0000-4000-8000-000000000001";
   attempt.scene = "Demo knee";

@@ -16,7 +16,7 @@ namespace {
 // Words of a line that lead to one place.
 struct Piece {
   std::string words;
-  std::string target;  // of a link; empty: plain words
+  std::string target;  // target of a link; empty: plain words
 };
 
 // Words without the signs of Markdown. Within `code` only the quotes are such signs.

@@ -73,7 +73,7 @@ struct ScriptLine {
   int button = 0;  // button of a stroke: 0 left, 1 right, 2 middle
   bool shift = false, ctrl = false;
   std::vector<double> numbers;         // points of a stroke, numbers of a pose
-  std::vector<std::string> arguments;  // of a command
+  std::vector<std::string> arguments;  // words after a command
 };
 
 // Throws Error(kBadData) with the line's number.

@@ -93,7 +93,7 @@ using LessonTexture = std::function<unsigned(const std::shared_ptr<const ColourI
 
 struct LessonsStep {
   bool is_test = false;
-  bool is_unscored = false;  // of the attempt that runs
+  bool is_unscored = false;  // holds for the attempt that runs
   std::string note;          // remark of the instructor that is typed
   LessonPicture picture;
   int chosen = -1;  // exercise of the scene
@@ -110,7 +110,7 @@ struct LessonsStep {
   bool takes_target = false;  // a click in the picture sets the place of the chosen target
   std::optional<PoseCheck> pose_check;
   std::string drag_key;                        // merge key of the last edit, while it is dragged
-  std::map<std::string, int> newest_versions;  // of exercises that were edited, by their ids
+  std::map<std::string, int> newest_versions;  // edited exercises by their ids
 };
 
 // The chosen exercise; null: none.

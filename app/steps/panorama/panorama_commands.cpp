@@ -27,7 +27,7 @@ void UseTool(State& state) {
   SetAdjustTool(state, tool);
 }
 
-// As the two points say that the tool would be given by the mouse, px of the panorama.
+// Sets the tool's two points as the mouse would give them, px of the panorama.
 void AdjustBetween(State& state, AdjustTool tool, const glm::dvec2& from, const glm::dvec2& to) {
   AdjustBoard& board = state.steps.panorama->adjust;
   board.tool = tool;

@@ -43,10 +43,10 @@ struct ReachBoard {
   std::shared_ptr<const MadeReach>
       made;  // null: none yet; of an earlier document while one is made
   Jobs jobs;
-  std::vector<SpacingTarget> targets;  // as last chosen; see ChosenSpacingTargets
-  // What is in the way of the shafts, kept while it lies where it is.
+  std::vector<SpacingTarget> targets;  // last choice; see ChosenSpacingTargets
+  // Obstacles of the shafts, kept while they lie where they are.
   std::shared_ptr<const simulation::ShaftObstacles> obstacles;
-  ReachKey obstacle_key;  // of the scene of the obstacles; its scope and instrument do not count
+  ReachKey obstacle_key;  // scene of the obstacles; its scope and instrument do not count
 };
 
 // Starts the work that is wanted, if any, and takes over what ended. Once a frame; returns at once.

@@ -13,7 +13,7 @@ namespace arthro::app {
 struct SpacingTarget {
   enum class Kind { kRelief, kTissue, kExercise } kind = Kind::kRelief;
   std::string exercise;  // id, of a target of an exercise
-  std::string name;      // of the tissue, or id of the target
+  std::string name;      // name of the tissue, or id of the target
   friend bool operator==(const SpacingTarget&, const SpacingTarget&) = default;
 };
 std::string WordsOf(const SpacingTarget& target);  // "relief", "meniscus", "diagnostic: notch"

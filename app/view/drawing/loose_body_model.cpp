@@ -9,11 +9,12 @@
 namespace arthro::app {
 namespace {
 
-// Edges of a body of 2 mm are 0.25 mm long: its distances are interpolated (lens_model.cpp).
-constexpr int kAroundBody = 48, kAlongBody = 24;
+// Edges of a body of 2 mm are 0.17 mm long: its distances are interpolated (lens_model.cpp), and
+// its outline is round near the lens.
+constexpr int kAroundBody = 72, kAlongBody = 36;
 constexpr int kDents = 9;
-// Linear; between the cartilage and the meniscus of the demo scene.
-constexpr glm::dvec3 kBodyColour(0.72, 0.63, 0.49);
+// Linear; darker than cartilage, since a body comes close to the lamp.
+constexpr glm::dvec3 kBodyColour(0.52, 0.45, 0.35);
 
 // Directions of dents that are even over the sphere [Fibonacci lattice], turned by the number.
 glm::dvec3 DentOf(int dent, int number) {

@@ -159,7 +159,7 @@ double Overview::RingAngle(const glm::dvec2& at) const {
   model.pose = p.drag_pose;
   const glm::dvec3 middle = p.MiddleOf(model), axis = p.AxisOf(model, p.dragged_ring),
                    out = p.ring_from - middle;
-  // Where the line of sight meets the plane of the ring, unless it runs along it.
+  // Finds where the line of sight meets the plane of the ring, unless it runs along it.
   constexpr double kAlong = 0.2;
   const Line line = LineThrough(at.x, at.y);
   const double across = glm::dot(line.direction, axis);

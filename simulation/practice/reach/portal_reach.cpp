@@ -156,7 +156,7 @@ void AddTissues(const LoadedScene& loaded, int most, ScopeReach& reach) {
   }
 }
 
-// Of the places of a tissue or of a point; -1 and -1: of the relief.
+// Counts the places of a tissue or of a point; -1 and -1: of the relief.
 ReachShares SharesOf(const ScopeReach& scope, const std::vector<PlaceReach>& reached, int tissue,
                      int point = -1) {
   ReachShares shares;

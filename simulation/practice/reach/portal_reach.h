@@ -33,7 +33,7 @@ struct ReachPlace {
   glm::dvec2 pixel{0.0};  // on the panorama, for a place of the relief
   double weight = 0;      // solid angle of the relief about the portal; 1 on a tissue
   int tissue = -1;        // -1: none
-  int point = -1;         // of the points that were asked for; -1: the relief, or a tissue
+  int point = -1;         // index in the points that were asked for; -1: the relief, or a tissue
   // Directions of the scope's rod that show this place.
   std::vector<glm::dvec3> rods;
 };
@@ -70,11 +70,11 @@ struct PortalReach {
 PortalReach ReachWith(const ScopeReach& scope, const LoadedScene& loaded, double incision_spacing,
                       const ReachLimits& limits = {});
 
-// What an incision spacing shall suit. Each entry counts the same, however large it is.
+// Targets that an incision spacing shall suit. Each entry counts the same, however large it is.
 struct ReachTargets {
   bool has_relief = false;
   std::vector<int> tissues;
-  std::vector<int> points;  // of those that the reach of the scope was computed with
+  std::vector<int> points;  // indices in those that the reach of the scope was computed with
 };
 ReachTargets TargetsOf(int tissue);  // one tissue; -1: the relief
 

@@ -16,7 +16,7 @@ constexpr std::array<std::array<std::size_t, 6>, 4> kFaces{
 
 SurfaceMesh SurfaceOf(const TetMesh& mesh) {
   const auto per_element = static_cast<std::size_t>(mesh.NodesPerElement());
-  // By the sorted corners; a face that is met again lies inside.
+  // Faces by their sorted corners; a face that is met again lies inside.
   std::map<std::array<int, 3>, std::optional<std::array<int, 6>>> faces;
   for (std::size_t at = 0; at + per_element <= mesh.elements.size(); at += per_element)
     for (const auto& local : kFaces) {

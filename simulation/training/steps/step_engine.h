@@ -44,7 +44,7 @@ struct StripState {
   std::optional<double> step_time_left;  // s
   bool is_cue_due = false;
   std::vector<OpenStep> open;      // steps under way: of a free order all that are not done
-  std::vector<StripCue> cues;      // of those steps
+  std::vector<StripCue> cues;      // cues of those steps
   std::optional<glm::dvec3> goal;  // moving goal of the step; portal frame
   double haze = 0;                 // strength that a bleeding asks of the picture, 0 to 1
   bool is_paused = false;

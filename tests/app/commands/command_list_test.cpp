@@ -67,7 +67,7 @@ TEST_F(Commands, APageOfACommandThatIsCalledByNameIsOpened) {
   EXPECT_NE(RunByName(state, "forget-lengths", {}), "") << "there are none";
 }
 
-// What the mouse alone could do before, by name and with arguments.
+// Work that the mouse alone could do before, by name and with arguments.
 TEST_F(Commands, AScriptNamesACommandWithItsArguments) {
   Open();
   EXPECT_EQ(RunByName(state, "show-reach", {"on"}), "");

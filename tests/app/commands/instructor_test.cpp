@@ -181,8 +181,9 @@ TEST(CohortBoard, DrawsTheBandOfTheGroupThatWasChosenAlsoAfterTheNextStart) {
     MakeReferenceGroup(records, "residents", lab.RowOf(0).hash, rule);
   }
   const auto band_words = [](EditorState& state) {
-    FreshCohortBoard(state);
-    ChooseCell(state, 1, 0);
+    const auto& rows = FreshCohortBoard(state).rows;
+    const auto trainee = std::ranges::find(rows, "T-1", &CohortRowOfPage::code);
+    ChooseCell(state, static_cast<int>(trainee - rows.begin()), 0);
     return FreshCohortBoard(state).curve.band_words;
   };
   EXPECT_EQ(band_words(lab.state), "experts, n = 1");

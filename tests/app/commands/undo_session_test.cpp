@@ -305,7 +305,7 @@ class UndoSession : public testing::Test {
   }
 
   void DoSomething() {
-    KeepLandmarksFresh(state);  // as each frame does
+    KeepLandmarksFresh(state);  // each frame does so
     if (Pick(3) > 0) {
       EditByMouse();
     } else {

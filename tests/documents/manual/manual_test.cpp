@@ -79,10 +79,12 @@ std::set<std::string> FieldLabels() {
     if (file.extension() != ".h") continue;
     const std::string text = TextOf(file);
     for (std::sregex_iterator found(text.begin(), text.end(), field), none; found != none; ++found)
-      labels.insert(app::WordsOfField((*found)[1]));
+      labels.insert(app::LabelOfField((*found)[1].str()));
     for (std::sregex_iterator found(text.begin(), text.end(), choice), none; found != none; ++found)
       labels.insert((*found)[1]);
   }
+  for (const auto& [name, word] : app::LabelledChoices())
+    labels.insert(app::LabelOfChoice(name, word));
   return labels;
 }
 

@@ -34,8 +34,7 @@ TEST(TetSurface, TakesTheMiddlesOfCurvedFaces) {
   const glm::dvec3 x[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (const auto& corner : x) mesh.rest_positions.push_back(corner);
   constexpr int kEdges[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
-  for (const auto& [a, b] : kEdges)
-    mesh.rest_positions.push_back(0.5 * (x[a] + x[b]));
+  for (const auto& [a, b] : kEdges) mesh.rest_positions.push_back(0.5 * (x[a] + x[b]));
   mesh.elements = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
   const SurfaceMesh surface = SurfaceOf(mesh);
   EXPECT_EQ(surface.vertices.size(), 10u);

@@ -209,9 +209,11 @@ void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   CommandButton(ui, state, "remove-tissue", {half, 0});
 }
 
+float EyeWidth() { return 1.5f * ImGui::GetTextLineHeight(); }
+
 // An eye that shows and hides a tissue, open or crossed out.
 void Eye(Ui& ui, EditorState& state, int tissue, const std::string& name) {
-  const float height = ImGui::GetTextLineHeight(), width = 1.5f * height;
+  const float height = ImGui::GetTextLineHeight(), width = EyeWidth();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const bool is_hidden = IsHiddenByAuthor(state, tissue);
   if (ImGui::InvisibleButton("eye", {width, height})) ToggleHidden(state, tissue);
@@ -231,17 +233,22 @@ void Eye(Ui& ui, EditorState& state, int tissue, const std::string& name) {
     draw->AddCircleFilled(middle, 0.22f * height, colour);
 }
 
+// The name of a tissue and, at the end of the row, its eye.
 void TissueRow(Ui& ui, EditorState& state, int tissue, const std::string& name) {
   ImGui::PushID(tissue);
-  Eye(ui, state, tissue, name);
-  ImGui::SameLine(0, ui.Px(6));
-  const PaddedRow padded(ui);
-  if (ImGui::Selectable(name.c_str(), state.tissue == tissue)) {
-    if (state.tissue != tissue)
-      state.steps.tissue->ball = state.steps.tissue->cut = state.steps.tissue->region = -1;
-    state.tissue = tissue;
+  const float end = ImGui::GetContentRegionMax().x - EyeWidth();
+  {
+    const PaddedRow padded(ui);
+    const float room = ImGui::GetContentRegionAvail().x - EyeWidth() - ui.Px(14);
+    if (ImGui::Selectable(name.c_str(), state.tissue == tissue, 0, {room, 0})) {
+      if (state.tissue != tissue)
+        state.steps.tissue->ball = state.steps.tissue->cut = state.steps.tissue->region = -1;
+      state.tissue = tissue;
+    }
+    RecordItem(ui, name, true, state.tissue == tissue ? "on" : "off");
   }
-  RecordItem(ui, name, true, state.tissue == tissue ? "on" : "off");
+  ImGui::SameLine(end);
+  Eye(ui, state, tissue, name);
   ImGui::PopID();
 }
 

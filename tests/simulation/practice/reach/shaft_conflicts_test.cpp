@@ -87,7 +87,7 @@ TEST(ShaftConflicts, NameTheShaftThatPassesThroughTheRelief) {
 TEST(ShaftConflicts, ALensBehindTheReliefIsOneAndATipAgainstItIsNone) {
   const ShaftObstacles condyle(CondyleScene());
   const glm::dvec3 portal(-0.03, 0, 0), free(-0.03, 0, 0.02);
-  const glm::dvec3 towards(std::sin(0.17), 0, std::cos(0.17));  // of the condyle, at 10 degrees
+  const glm::dvec3 towards(std::sin(0.17), 0, std::cos(0.17));  // way to the condyle, at 10 degrees
   const auto behind = condyle.Find(0.03 * towards, portal, free);
   ASSERT_EQ(behind.size(), 1u);
   EXPECT_EQ(behind[0].kind, Kind::kScopeInRelief);
