@@ -81,6 +81,7 @@ void HistoryWindow(Ui& ui, EditorState& state, HistoryDialog& dialog,
   Gap(ui);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ui.Px(150));
   TextInput(ui, "Snapshot's name", dialog.snapshot, "Name of a snapshot");
+  Tooltip(ui, "Name under which this version can be found again.");
   ImGui::SameLine();
   const bool has_name = !dialog.snapshot.empty() && state.document().panorama != nullptr;
   const bool keep = Button(ui, "Keep snapshot", has_name, {-FLT_MIN, 0},

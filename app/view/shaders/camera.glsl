@@ -30,9 +30,6 @@ const float kMostDetail = 14.0 / 255.0;  // limit of what is enhanced
 // Limit beside an edge, against halos: 3.6 times that is the 18 levels by which a real camera draws
 // the foot of an edge of 100 levels too dark.
 const float kMostHalo = 5.0 / 255.0;
-// Limit at an edge that was drawn as stairs: each of them would get a halo of its own, which real
-// cameras, whose lens has none, do not show.
-const float kMostAtStair = 2.0 / 255.0;
 float lumaAt(vec2 at) { return dot(textureLod(picture, at, 0.0).rgb, kLuma); }
 
 // Returns the colour of the pixel that lies (x, y) pixels aside. SAME_SIZE: reads one texel.
@@ -157,12 +154,8 @@ void main() {
 #endif
 #ifdef DETAIL
   float fine = clamp(detail, -kCoring, kCoring);
-#ifdef EDGES
-  float most = kMostAtStair;
-#else
   float most = min(kMostHalo + max(ridge(middle - n, middle - s), ridge(middle - e, middle - w)),
                    kMostDetail);
-#endif
   float clear = clamp(detail - fine, -most, most);
   float centre = kDetailGain * sharpening * clear - min(sharpening, 1.0) * fine;
   colour += mix(centre, -rimBlur * detail, min(r2 * r2, 1.0));

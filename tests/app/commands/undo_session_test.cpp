@@ -22,7 +22,6 @@
 #include "app/steps/solids/solid_edit.h"
 #include "app/steps/tissue/cut/tissue_cut.h"
 #include "app/steps/tissue/landmark_mode.h"
-#include "app/steps/tissue/library/tissue_library.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
@@ -85,7 +84,8 @@ class UndoSession : public testing::Test {
       if (!found.contains(id)) ADD_FAILURE() << "no command " << id;
   }
   // Commands that change the scene, or the page from which it is changed: not those that ask for a
-  // file, leave the scene or begin a practice. Ids that end in '-' stand for all that begin so.
+  // file, leave the scene, begin a practice or start TetGen, whose worker is the program itself.
+  // Ids that end in '-' stand for all that begin so.
   static constexpr const char* kCommands[] = {"step-",
                                               "view-",
                                               "offer-",
@@ -107,12 +107,10 @@ class UndoSession : public testing::Test {
                                               "depth-map",
                                               "depth-scope",
                                               "touch-preview",
-                                              "tetrahedralise",
                                               "mend-surface",
                                               "make-layer",
                                               "duplicate-tissue",
                                               "library",
-                                              "make-tear",
                                               "landmarks",
                                               "leave-landmarks",
                                               "align-landmarks",
@@ -150,7 +148,7 @@ class UndoSession : public testing::Test {
   void EditByMouse() {
     state.tissue = TissueCount() > 0 ? Pick(TissueCount()) : -1;
     const glm::dvec3 place(0.006 * Share(), 0.006 * Share(), 0.006 * Share());
-    switch (Pick(23)) {
+    switch (Pick(22)) {
       case 0:
         return SetTitle(state, "title " + std::to_string(Pick(1000)));
       case 1:
@@ -210,19 +208,14 @@ class UndoSession : public testing::Test {
       case 17:
         return Adjust();
       case 18:
-        if (TissueCount() < kMostTissues)
-          DropLibraryModel(state, static_cast<authoring::ModelKind>(Pick(10)),
-                           authoring::SightOfPanorama(state.document().scene.backdrop, Pixel()));
-        return;
-      case 19:
         return ChangeSolid();
-      case 20:
+      case 19:
         if (!state.document().scene.exercises.empty())
           EditExercise(state, "Rename", "", [&](Exercise& exercise) {
             exercise.title = "exercise " + std::to_string(Pick(1000));
           });
         return;
-      case 21:
+      case 20:
         if (state.tissue >= 0)
           ChoosePreset(state, state.tissue, Pick(2) == 0 ? "cartilage" : "meniscus");
         return;
@@ -298,7 +291,7 @@ class UndoSession : public testing::Test {
     EndDrag(state);
   }
 
-  // Models and copies beyond this number would make the session slow.
+  // Copies and solids beyond this number would make the session slow.
   static constexpr int kMostTissues = 5;
   bool IsTooMuch(const std::string& id) const {
     return TissueCount() >= kMostTissues && (id.starts_with("add-") || id == "duplicate-tissue");

@@ -54,7 +54,7 @@ class Desktop : public testing::Test {
 TEST_F(Desktop, RealClicksAndKeysChangeAndSaveTheScene) {
   const int exit_code = WithDesktop(scene, R"(
 click 60 139
-xdotool keydown ctrl; sleep 0.15; click 160 375; xdotool keyup ctrl; sleep 0.3
+xdotool keydown ctrl; sleep 0.15; click 160 411; xdotool keyup ctrl; sleep 0.3
 xdotool key ctrl+a; sleep 0.2
 xdotool type --delay 60 12; sleep 0.3
 xdotool key Return; sleep 0.3
@@ -69,7 +69,7 @@ TEST_F(Desktop, SixFastClicksAreSixClicks) {
   // Undo after six clicks on six different view angles: each click is a step.
   const int exit_code = WithDesktop(scene, R"(
 click 60 139
-for x in 50 200 50 200 50 200; do xdotool mousemove --window $W $x 539; xdotool click 1; sleep 0.02; done
+for x in 50 200 50 200 50 200; do xdotool mousemove --window $W $x 661; xdotool click 1; sleep 0.02; done
 sleep 1
 xdotool key ctrl+z; sleep 0.3
 xdotool key ctrl+z; sleep 0.3

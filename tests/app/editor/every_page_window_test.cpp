@@ -163,9 +163,6 @@ do practise
 wait job
 wait frames 10
 expect tips
-click Forces
-wait frames 3
-expect tips
 do devices
 wait frames 3
 expect tips

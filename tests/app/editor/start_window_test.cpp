@@ -69,7 +69,7 @@ TEST_F(StartWindow, ASceneThatCannotBeReadSaysSoAndBlocksNothing) {
 TEST_F(StartWindow, MakesADigitalKneeBesideTheWindowAndStops) {
   const fs::path folder = temp / "digital-knee";
   Drive("click Start\nclick \"New from a digital knee…\"\nset \"File name\" " + folder.string() +
-        "\nclick \"Make it\"\nwait frames 3\nexpect \"Make a digital knee\"\nclick Stop\n"
+        "\nwait frames 3\nexpect \"Make a digital knee\"\nclick Stop\n"
         "wait job\nexpect not Run\n");
   EXPECT_FALSE(fs::exists(folder));
 }
@@ -82,7 +82,7 @@ TEST_F(StartWindow, PutsNoDigitalKneeIntoAFolderOfOtherFiles) {
 
 TEST_F(StartWindow, TheManualIsReadFromPageToPage) {
   Drive(R"(
-click "?"
+click Help
 click "Page of the manual"
 click "Manual of Arthroscene"
 click Jobs
@@ -105,7 +105,7 @@ click Theme
 click light
 expect value Theme light
 click Language
-click german
+click Deutsch
 click "Interface scale"
 click 1.5
 wait frames 4

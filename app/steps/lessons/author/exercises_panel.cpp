@@ -38,8 +38,10 @@ void List(Ui& ui, EditorState& state) {
 
 void Words(Ui& ui, EditorState& state, const Exercise& exercise) {
   std::string title = exercise.title, brief = exercise.brief;
-  const bool has_title = TextField(ui, "Title of the exercise", title);
-  const bool has_brief = TextField(ui, "What the trainee is asked to do", brief);
+  const bool has_title =
+      TextField(ui, "Title of the exercise", title, "as the list of exercises shows it");
+  const bool has_brief =
+      TextField(ui, "What the trainee is asked to do", brief, "as the briefing says it");
   if (has_title) EditExercise(state, "Title", "", [&](Exercise& e) { e.title = title; });
   if (has_brief) EditExercise(state, "Brief", "", [&](Exercise& e) { e.brief = brief; });
 }

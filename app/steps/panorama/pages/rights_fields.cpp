@@ -36,7 +36,7 @@ void RightsFields(Ui& ui, EditorState& state) {
   if (missing.empty())
     return QuietText(ui, "All is stated that a scene should state before it is shared.");
   std::string words = "Before this scene is shared: ";
-  for (std::size_t i = 0; i < missing.size(); ++i) words += (i > 0 ? "; " : "") + missing[i];
+  for (std::size_t i = 0; i < missing.size(); ++i) words += (i > 0 ? "; " : "") + ui.In(missing[i]);
   QuietText(ui, words + ".");
 }
 

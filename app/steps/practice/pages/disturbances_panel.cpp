@@ -25,7 +25,8 @@ void DisturbancesPage(Ui& ui, EditorState& state, const Area& area) {
     ImGui::SameLine(0, ui.Px(8));
     ImGui::BeginGroup();
     double value = state.steps.practice->disturbing.chosen.*strength;
-    if (Slider(ui, std::string(command.words) + " strength", value, kLeastStrength, 1.0, "%.2f"))
+    if (Slider(ui, std::string(command.words) + " strength", value, kLeastStrength, 1.0, "%.2f",
+               "How strong it is; 1 is the strongest."))
       SetDisturbance(state, strength, value);
     ImGui::EndGroup();
   }

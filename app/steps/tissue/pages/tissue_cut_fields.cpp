@@ -90,7 +90,8 @@ void RegionFields(Ui& ui, EditorState& state, const Tissue& tissue) {
       EndDrag(state);
     }
   }
-  MmSlider(ui, state, "Region radius", radius, 1.0, 30.0, nullptr, SetRegionRadius);
+  MmSlider(ui, state, "Region radius", radius, 1.0, 30.0,
+           "Radius of the ball whose tissue is the region.", SetRegionRadius);
   CommandButton(ui, state, "remove-region", {-FLT_MIN, 0});
 }
 
