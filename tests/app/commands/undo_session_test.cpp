@@ -13,24 +13,16 @@
 #include "app/files/scene_files.h"
 #include "app/platform/resource_folder.h"
 #include "app/state/edits.h"
-#include "app/steps/depth/depth_brush.h"
 #include "app/steps/depth/depth_step.h"
-#include "app/steps/lessons/exercise_edit.h"
-#include "app/steps/panorama/adjust_board.h"
-#include "app/steps/panorama/panorama_step.h"
 #include "app/steps/portals/portals_step.h"
-#include "app/steps/solids/solid_edit.h"
 #include "app/steps/tissue/cut/tissue_cut.h"
-#include "app/steps/tissue/landmark_mode.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
-#include "authoring/project/sharing.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/fingerprint.h"
 #include "simulation/scene/files/scene_files.h"
 #include "simulation/scene/json/scene_json.h"
-#include "simulation/scene/solids/solid_io.h"
 #include "tests/app/commands/settle.h"
 #include "tests/support/build_paths.h"
 #include "tests/support/small_scene.h"
@@ -55,18 +47,10 @@ std::string BytesOf(const authoring::Document& document) {
   });
   text += document.panorama ? MarkOf(document.panorama->rgb) : "no panorama";
   text += document.depth ? MarkOf(document.depth->relief) : "no depth";
-  if (document.depth_sigma) text += MarkOf(document.depth_sigma->relief);
-  if (document.depth_origin) text += MarkOf(document.depth_origin->origin);
-  if (document.depth_strokes)
-    for (const authoring::DepthStroke& stroke : *document.depth_strokes)
-      text += MarkOf(stroke.points) + std::to_string(static_cast<int>(stroke.kind)) + " ";
   for (const auto& surface : document.surfaces)
     text += MarkOf(surface->vertices) + MarkOf(surface->triangles);
-  for (const Tissue& tissue : document.scene.tissues) {
+  for (const Tissue& tissue : document.scene.tissues)
     if (!tissue.mesh.empty()) text += FingerprintOf(ReadWholeFile(FileOf(document, tissue.mesh)));
-    if (IsSolidFile(tissue.surface))
-      text += FingerprintOf(ReadWholeFile(FileOf(document, tissue.surface)));
-  }
   if (document.lens) text += std::to_string(document.lens->focal_px);
   return text + (document.is_depth_imported ? " imported" : " made") + document.folder.string();
 }
@@ -79,61 +63,15 @@ class UndoSession : public testing::Test {
     state.steps.tissue->preset_folder = fs::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues";
     LoadTissuePresets(state);
     state.steps.tissue->mesh_size = authoring::MeshSize::kCoarse;
-    const std::set<std::string> found = AddCommands();
-    for (const char* id : kCommands)
-      if (!found.contains(id)) ADD_FAILURE() << "no command " << id;
-  }
-  // Commands that change the scene, or the page from which it is changed: not those that ask for a
-  // file, leave the scene, begin a practice or start TetGen, whose worker is the program itself.
-  // Ids that end in '-' stand for all that begin so.
-  static constexpr const char* kCommands[] = {"step-",
-                                              "view-",
-                                              "offer-",
-                                              "map-",
-                                              "mirror-",
-                                              "add-",
-                                              "remove-",
-                                              "nudge-",
-                                              "turn-",
-                                              "part-",
-                                              "brush-",
-                                              "cut-",
-                                              "hold-",
-                                              "probe-",
-                                              "release-",
-                                              "set-scale",
-                                              "forget-lengths",
-                                              "make-depth",
-                                              "depth-map",
-                                              "depth-scope",
-                                              "touch-preview",
-                                              "mend-surface",
-                                              "make-layer",
-                                              "duplicate-tissue",
-                                              "library",
-                                              "landmarks",
-                                              "leave-landmarks",
-                                              "align-landmarks",
-                                              "fit-to-relief",
-                                              "pick-patch",
-                                              "lay-on-relief",
-                                              "show-before",
-                                              "tissue-before-scope",
-                                              "new-exercise",
-                                              "copy-exercise",
-                                              "measure-relief",
-                                              "leave-depth-brush"};
-  std::set<std::string> AddCommands() {
-    std::set<std::string> found;
     for (const Command& command : AllCommands()) {
-      const std::string id = command.id;
-      for (const std::string entry : kCommands)
-        if (entry.ends_with('-') ? id.starts_with(entry) : id == entry) {
+      // Without those that ask for a file, leave the scene or begin a practice.
+      const std::string group = command.group, id = command.id;
+      if (group == "Edit" || group == "Depth" || group == "Steps" || group == "Portals" ||
+          id == "make-depth")
+        if (id != "undo" && id != "redo" && id != "history" && id != "step-exercises" &&
+            !id.starts_with("import"))
           commands.push_back(&command);
-          found.insert(entry);
-        }
     }
-    return found;
   }
   void Settle() { app::Settle(state); }
   std::string ErrorOnTop() const {
@@ -148,7 +86,7 @@ class UndoSession : public testing::Test {
   void EditByMouse() {
     state.tissue = TissueCount() > 0 ? Pick(TissueCount()) : -1;
     const glm::dvec3 place(0.006 * Share(), 0.006 * Share(), 0.006 * Share());
-    switch (Pick(22)) {
+    switch (Pick(14)) {
       case 0:
         return SetTitle(state, "title " + std::to_string(Pick(1000)));
       case 1:
@@ -193,32 +131,6 @@ class UndoSession : public testing::Test {
         options.gamma = 0.5 + Share();
         return SetDepthOptions(state, options, "Gamma");
       }
-      case 13:
-        return SetSide(state, static_cast<BodySide>(Pick(3)));
-      case 14: {
-        const auto assets = AssetsOf(state.document());
-        const authoring::Asset& asset = assets[static_cast<std::size_t>(Pick(int(assets.size())))];
-        return SetRights(state, asset, {"source " + std::to_string(Pick(100)), "CC0-1.0", "none"},
-                         "rights");
-      }
-      case 15:
-        return Paint();
-      case 16:
-        return PlaceLandmark();
-      case 17:
-        return Adjust();
-      case 18:
-        return ChangeSolid();
-      case 19:
-        if (!state.document().scene.exercises.empty())
-          EditExercise(state, "Rename", "", [&](Exercise& exercise) {
-            exercise.title = "exercise " + std::to_string(Pick(1000));
-          });
-        return;
-      case 20:
-        if (state.tissue >= 0)
-          ChoosePreset(state, state.tissue, Pick(2) == 0 ? "cartilage" : "meniscus");
-        return;
       default: {
         Backdrop backdrop = state.document().scene.backdrop;
         backdrop.radius = 0.04 + 0.02 * Share();
@@ -227,83 +139,11 @@ class UndoSession : public testing::Test {
     }
   }
 
-  glm::dvec2 Pixel() {
-    const auto& panorama = *state.document().panorama;
-    return {Share() * (panorama.width - 1), Share() * (panorama.height - 1)};
-  }
-
-  void Paint() {
-    app::Run(state, "step-depth");
-    app::Run(state, "depth-map");
-    app::Run(state, "map-brush");
-    if (!PaintsDepth(state)) return;
-    state.steps.depth->board.brush.stroke.kind = static_cast<authoring::StrokeKind>(Pick(6));
-    SetBrushRadius(state, 5 + 10 * Share());
-    PaintDepth(state, Pixel());
-    if (Pick(4) == 0) return CancelStroke(state);
-    PaintDepth(state, Pixel());
-    EndStroke(state);
-    painted += 1;
-  }
-
-  void PlaceLandmark() {
-    if (state.tissue < 0) return;
-    state.step = Step::kTissue;
-    if (!PlacesLandmarks(state)) ToggleLandmarks(state);
-    if (!PlacesLandmarks(state)) return;
-    const auto& surface = state.document().surfaces[static_cast<std::size_t>(state.tissue)];
-    const auto& vertices = surface->vertices;
-    TakeModelPoint(state, state.tissue,
-                   vertices[static_cast<std::size_t>(Pick(int(vertices.size())))]);
-    TakeScenePoint(state, authoring::SightOfPanorama(state.document().scene.backdrop, Pixel()));
-    if (HasChosenLandmark(state) && Pick(3) == 0) LeaveOutLandmark(state, 0, true);
-  }
-
-  void Adjust() {
-    constexpr int kLeastWidth = 120;  // px; what is smaller is not cropped further
-    AdjustBoard& board = state.steps.panorama->adjust;
-    const AdjustTool tools[] = {AdjustTool::kCrop, AdjustTool::kLength, AdjustTool::kUp,
-                                AdjustTool::kMedial};
-    const AdjustTool tool = tools[Pick(4)];
-    const glm::dvec2 size(state.document().panorama->width, state.document().panorama->height);
-    if (tool == AdjustTool::kCrop && size.x < kLeastWidth) return;
-    state.step = Step::kPanorama;
-    if (board.tool != tool) SetAdjustTool(state, tool);
-    board.from = tool == AdjustTool::kCrop ? 0.04 * size : 0.4 * size;
-    board.to = tool == AdjustTool::kCrop ? 0.97 * size : Pixel();
-    board.millimetres = 5 + 10 * Share();
-    Guarded(state, "Change the backdrop", [&] { ApplyAdjustment(state); });
-  }
-
-  void ChangeSolid() {
-    if (state.tissue < 0 || !IsSolidChosen(state)) {
-      if (TissueCount() < kMostTissues) AddSolid(state);
-      return;
-    }
-    const Solid* solid = ChosenSolid(state);
-    if (solid == nullptr) return;
-    state.steps.tissue->solids->part = Pick(static_cast<int>(solid->parts.size()));
-    SolidPart part = solid->parts[static_cast<std::size_t>(state.steps.tissue->solids->part)];
-    PlaceOf(part).blend = 1e-3 * Share();
-    if (auto* ellipsoid = std::get_if<EllipsoidPart>(&part))
-      ellipsoid->radii = glm::dvec3(2e-3 + 3e-3 * Share());
-    SetSolidPart(state, part, "Resize");
-    EndDrag(state);
-  }
-
-  // Copies and solids beyond this number would make the session slow.
-  static constexpr int kMostTissues = 5;
-  bool IsTooMuch(const std::string& id) const {
-    return TissueCount() >= kMostTissues && (id.starts_with("add-") || id == "duplicate-tissue");
-  }
-
   void DoSomething() {
-    KeepLandmarksFresh(state);  // each frame does so
     if (Pick(3) > 0) {
       EditByMouse();
     } else {
       const Command& command = *commands[static_cast<std::size_t>(Pick(int(commands.size())))];
-      if (IsTooMuch(command.id)) return;
       const long long before = state.history.StateId();
       app::Run(state, command);
       if (state.history.StateId() != before) used.insert(command.id);
@@ -328,7 +168,6 @@ class UndoSession : public testing::Test {
   EditorState state = MakeEditorState(NewDocument());
   std::vector<const Command*> commands;
   std::set<std::string> used;
-  int painted = 0;
 };
 
 TEST_F(UndoSession, AThousandRandomCommandsAreUndoneRedoneAndUndoneToTheSameBytes) {
@@ -337,8 +176,7 @@ TEST_F(UndoSession, AThousandRandomCommandsAreUndoneRedoneAndUndoneToTheSameByte
   Walk("redo");
   const std::vector<std::string> undone = Walk("undo");
   EXPECT_GT(undone.size(), 300u) << "most commands are steps";
-  EXPECT_GE(used.size(), 15u) << "commands that are edits";
-  EXPECT_GT(painted, 0);
+  EXPECT_GE(used.size(), 6u) << "commands that are edits";
   std::vector<std::string> redone = Walk("redo");
   std::reverse(redone.begin(), redone.end());
   EXPECT_TRUE(redone == undone);

@@ -181,7 +181,7 @@ TEST_F(ExercisePath, LeadsFromARealClipToTheReportOfANoviceInFiftyActions) {
   ASSERT_NO_FATAL_FAILURE(Drive("edit", "click New\ndrop " + clip.string() + R"(
 wait job
 click "More options"
-set Every 4
+set "Use every n-th frame" 4
 click Run
 wait job
 click "Use this panorama"

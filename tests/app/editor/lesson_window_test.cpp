@@ -212,7 +212,6 @@ wait frames 5
 expect not "Time, paused"
 click "End attempt"
 expect "Stopped"
-expect "Not measured"
 click "Look back"
 wait frames 5
 expect "Force on the tips, N: scope grey, instrument blue"

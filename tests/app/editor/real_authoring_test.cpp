@@ -38,7 +38,7 @@ class RealAuthoring : public testing::Test {
     return "click New\ndrop " + clip + R"(
 wait job
 click "More options"
-set Every 4
+set "Use every n-th frame" 4
 click Run
 wait job
 expect "63 of 250 frames placed"
