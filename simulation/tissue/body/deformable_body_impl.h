@@ -39,7 +39,7 @@ struct CutState {
   SolidField original;                   // with the author's cuts, before the first tool's
   std::vector<int> element_of_vertex{};  // element of the whole mesh per vertex of the skin
   std::vector<int> whole_vertex{};       // CarvedSkin::whole_vertex of the skin
-  CarvedSkin carved{};                   // skin of the field since the last edit, for the next shape
+  CarvedSkin carved{};  // skin of the field since the last edit, for the next shape
   std::vector<int>
       element_of_node{};  // element of the whole mesh per node of the field; −1: far from it
   // Positions of field nodes in their elements; cached, since a shaver needs them ten times a
