@@ -176,6 +176,7 @@ const std::map<std::string, std::string> kOutputs = {
     {"panorama --output", "panorama @F -o @X"},
     {"panorama --report", "panorama @F -o @new.png --report @X"},
     {"panorama --scene", "panorama @F -o @new.png --scene @S"},
+    {"panorama --thumbnail", "panorama @F -o @new.png --thumbnail @X"},
     {"phantom --output", "phantom --seed 1 --size S -o @X.demo"},
     {"pivot --output", "pivot @po.csv -o @X"},
     {"practise --log", "practise @S --hands plant --log @X"},
