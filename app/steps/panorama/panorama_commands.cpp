@@ -21,6 +21,16 @@ const std::vector<FileFilter>& PictureFilters() {
   return filters;
 }
 
+// Forms of the arguments in a script.
+constexpr const char* kRectangle = "LEFT TOP RIGHT BOTTOM";
+constexpr const char* kArrow = "FROM_X FROM_Y TO_X TO_Y";
+constexpr const char* kLengthOfLine = "MM FROM_X FROM_Y TO_X TO_Y";
+constexpr const char* kTiedPoints = "FRAME_X FRAME_Y PANORAMA_X PANORAMA_Y";
+
+constexpr const char* FormOf(AdjustTool tool) {
+  return tool == AdjustTool::kCrop ? kRectangle : kArrow;
+}
+
 template <AdjustTool tool>
 void UseTool(State& state) {
   state.step = Step::kPanorama;
@@ -43,12 +53,12 @@ void AdjustBetween(State& state, AdjustTool tool, const glm::dvec2& from, const 
 
 template <AdjustTool tool>
 void Adjust(State& state, const CommandArguments& arguments) {
-  const auto x = NumbersOf(arguments, "FROM_X FROM_Y TO_X TO_Y");
+  const auto x = NumbersOf(arguments, FormOf(tool));
   AdjustBetween(state, tool, {x[0], x[1]}, {x[2], x[3]});
 }
 
 void SetKnownLength(State& state, const CommandArguments& arguments) {
-  const auto x = NumbersOf(arguments, "MM FROM_X FROM_Y TO_X TO_Y");
+  const auto x = NumbersOf(arguments, kLengthOfLine);
   if (!(x[0] > 0)) throw Error(Code::kBadArgument, "the length is not above 0 mm");
   state.steps.panorama->adjust.millimetres = x[0];
   AdjustBetween(state, AdjustTool::kLength, {x[1], x[2]}, {x[3], x[4]});
@@ -69,12 +79,12 @@ bool HasTiedFrame(const State& state) {
 }
 
 void TieFrame(State& state, const CommandArguments& arguments) {
-  const auto x = NumbersOf(arguments, "FRAME_X FRAME_Y PANORAMA_X PANORAMA_Y");
+  const auto x = NumbersOf(arguments, kTiedPoints);
   AddTie(state, {x[0], x[1]}, {x[2], x[3]});
 }
 
 void MaskFrames(State& state, const CommandArguments& arguments) {
-  const auto x = NumbersOf(arguments, "LEFT TOP RIGHT BOTTOM");
+  const auto x = NumbersOf(arguments, kRectangle);
   AddMask(state, {x[0], x[1]}, {x[2], x[3]});
 }
 
@@ -163,7 +173,7 @@ constexpr Command kPanoramaCommands[] = {
      HasPictureAndTime,
      UseTool<AdjustTool::kCrop>,
      "",
-     "LEFT TOP RIGHT BOTTOM",
+     FormOf(AdjustTool::kCrop),
      Adjust<AdjustTool::kCrop>},
     {"known-length",
      "Known length",
@@ -174,7 +184,7 @@ constexpr Command kPanoramaCommands[] = {
      HasPictureAndTime,
      UseTool<AdjustTool::kLength>,
      "",
-     "MM X Y X Y",
+     kLengthOfLine,
      SetKnownLength},
     {"this-is-up",
      "This is up",
@@ -185,7 +195,7 @@ constexpr Command kPanoramaCommands[] = {
      HasPictureAndTime,
      UseTool<AdjustTool::kUp>,
      "",
-     "X Y X Y",
+     FormOf(AdjustTool::kUp),
      Adjust<AdjustTool::kUp>},
     {"this-is-medial",
      "This is medial",
@@ -198,7 +208,7 @@ constexpr Command kPanoramaCommands[] = {
      },
      UseTool<AdjustTool::kMedial>,
      "State the side of the knee below first: medial is right in a right knee.",
-     "X Y X Y",
+     FormOf(AdjustTool::kMedial),
      Adjust<AdjustTool::kMedial>},
     {"side",
      "Side",
@@ -220,7 +230,7 @@ constexpr Command kPanoramaCommands[] = {
      HasTiedFrame,
      [](State& state) { SetTool(state, BoardTool::kTie); },
      "Make a panorama from footage, and choose one of its frames.",
-     "X Y X Y",
+     kTiedPoints,
      TieFrame},
     {"mask",
      "Mask by hand",
@@ -231,7 +241,7 @@ constexpr Command kPanoramaCommands[] = {
      [](const State& state) { return Idle(state) && state.steps.panorama->footage.has_value(); },
      [](State& state) { SetTool(state, BoardTool::kMask); },
      "First choose a video or a folder of pictures.",
-     "LEFT TOP RIGHT BOTTOM",
+     kRectangle,
      MaskFrames},
     {"read-report",
      "Read its report…",

@@ -107,6 +107,25 @@ TEST_F(Commands, AScriptNamesACommandWithItsArguments) {
   EXPECT_NE(state.message.find("before the tear"), std::string::npos) << state.message;
 }
 
+// The manual said LEFT TOP RIGHT BOTTOM, and the refusal FROM_X FROM_Y TO_X TO_Y.
+TEST_F(Commands, ARefusalNamesTheFormThatTheManualNames) {
+  int numbers = 0;
+  for (const char* id : {"crop", "known-length", "this-is-up", "this-is-medial", "tie", "mask"})
+    for (const Command& command : AllCommands())
+      if (command.id == std::string_view(id)) {
+        ++numbers;
+        try {
+          command.run_with(state, {"wide"});
+          ADD_FAILURE() << id << " takes a word";
+        } catch (const Error& refused) {
+          EXPECT_NE(std::string(refused.what()).find(std::string("; write ") + command.arguments),
+                    std::string::npos)
+              << id << ": " << refused.what();
+        }
+      }
+  EXPECT_EQ(numbers, 6);
+}
+
 TEST_F(Commands, ACommandWithArgumentsIsRecordedInPlaceOfTheClickOnItsItem) {
   Open();
   state.record.is_on = true;
