@@ -149,10 +149,7 @@ class Editor {
                     state_.settings.theme == ThemeChoice::kLight ? Theme::kLight : Theme::kDark);
     if (is_other_language) {
       translation_ = TranslationFrom(options_, state_.settings);
-      std::array<std::string, Overview::kLabels.size()> labels;
-      std::transform(Overview::kLabels.begin(), Overview::kLabels.end(), labels.begin(),
-                     [&](const char* label) { return translation_.Of(label); });
-      pictures_.SetOverviewLabels(labels);
+      pictures_.SetOverviewLabels(translation_);
     }
     unsettled_ = std::max(unsettled_, 3);
   }

@@ -6,11 +6,9 @@
 #include <span>
 #include <utility>
 
-#include <glm/geometric.hpp>
-
+#include "app/editor/pictures/picture_clicks.h"
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
-#include "app/steps/lessons/author/target_edit.h"
 #include "app/steps/lessons/lessons_step.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/solids/solid_edit.h"
@@ -29,30 +27,6 @@ namespace {
 
 constexpr int kStillSamples = 8;  // texture samples per ray of a picture at rest
 constexpr auto kOverviewPause = std::chrono::milliseconds(200);  // between two, on a slow machine
-
-constexpr double kLandmarkReach = 8;  // px at scale 1; a click that misses the model by less counts
-
-// A practice shows the scene from outside too, and nothing is edited there.
-bool IsTissueEdited(const EditorState& state) {
-  return state.step == Step::kTissue && !state.practice;
-}
-
-// A click puts a ball, a cut or a region onto the tissue.
-bool HasBrush(const EditorState& state) {
-  return IsTissueEdited(state) && (state.steps.tissue->brush.has_value() || PicksPatch(state) ||
-                                   state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone);
-}
-
-void UseBrush(EditorState& state, const std::optional<Overview::TissuePlace>& place) {
-  if (!place)
-    state.message = "There is no tissue at that place. Click on the tissue; Esc ends this.";
-  else if (PicksPatch(state))
-    TakePatch(state, place->tissue, place->x_in_tissue);
-  else if (state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone)
-    UseCutBrush(state, place->tissue, place->x_in_tissue);
-  else
-    AddBall(state, *state.steps.tissue->brush, place->tissue, place->x_in_tissue);
-}
 
 Overview::Side SideOf(OverviewSide side) {
   switch (side) {
@@ -358,6 +332,13 @@ void Pictures::Record(LiveFilm& film, double t) {
   if (has_picture_ && film.IsDue(t)) film.Offer(t, scope_.ReadPixels());
 }
 
+void Pictures::SetOverviewLabels(Translation& translation) {
+  std::array<std::string, Overview::kLabels.size()> words;
+  std::ranges::transform(Overview::kLabels, words.begin(),
+                         [&](const char* label) { return translation.Of(label); });
+  overview_.SetLabels(words);
+}
+
 bool Pictures::DrawOverview(EditorState& state, int width, int height) {
   Take(state);
   has_overview_ = backdrop_.has_panorama();
@@ -428,114 +409,6 @@ void Pictures::ShowPlaces(const EditorState& state) {
     balls.push_back({*brush.start, kMark / tissue.pose.scale});
   }
   overview_.ShowBalls(state.tissue, balls, chosen);
-}
-
-void Pictures::ClickScope(EditorState& state, const glm::dvec2& place) {
-  if ((!HasBrush(state) && !TakesTarget(state)) || !has_picture_) return;
-  std::optional<Overview::TissuePlace> hit;
-  if (glm::length(place) <= 1.0) {
-    const glm::dvec3 ray =
-        simulation::RayThrough(TakeOptics(state.document()), picture_.view, place);
-    hit =
-        overview_.PickAlong(picture_.view.tip, 4.0 * state.document().scene.backdrop.radius * ray);
-    if (TakesTarget(state))
-      return PlaceTarget(
-          state, {picture_.view.tip, ray},
-          hit ? std::optional(TissueHit{hit->tissue, hit->x_in_tissue}) : std::nullopt);
-  }
-  if (!HasBrush(state)) return;
-  UseBrush(state, hit);
-}
-
-void Pictures::HandleOverview(EditorState& state, const OverviewInput& input, double scale) {
-  if (!has_overview_) return;
-  overview_.handle_scale = scale;
-  overview_.on_pose = [&state](int index, const Pose& pose, bool finished) {
-    const auto& tissues = state.document().scene.tissues;
-    if (index < 0 || index >= static_cast<int>(tissues.size())) return;
-    state.dragging = true;
-    PlaceTissue(state, index, pose, "Place");
-    if (finished) EndDrag(state);
-  };
-  overview_.on_part = [&state](const Pose& pose, bool finished) {
-    PlacePart(state, pose, finished);
-  };
-  overview_held_ = input.owned || input.wheel != 0;
-  using Kind = PointerEvent::Kind;
-  constexpr PointerEvent::Button kButtons[] = {
-      PointerEvent::Button::kLeft, PointerEvent::Button::kRight, PointerEvent::Button::kMiddle};
-  PointerEvent event;
-  event.x = input.pointer.x, event.y = input.pointer.y;
-  event.shift = input.shift, event.control = input.ctrl;
-  if ((input.hovered || input.owned) && input.pointer != pointer_) {
-    event.kind = Kind::kMove;
-    overview_.Handle(event);
-    pointer_ = input.pointer;
-  }
-  for (int button = 0; button < 3; ++button) {
-    event.button = kButtons[button];
-    if (input.pressed[button]) {
-      // With Shift the view turns, as it does elsewhere.
-      if (button == 0 && LaysOnRelief(state) && !input.shift) {
-        is_laying_ = true;
-        continue;
-      }
-      if (button == 0 && PaintsDepth(state) && !input.shift) {
-        is_painting_ = true;
-        continue;
-      }
-      if (button == 0 && HasBrush(state)) {
-        const auto place = overview_.PickTissue(event.x, event.y);
-        UseBrush(state, place);
-        if (place) continue;  // a drag beside the tissue turns the view
-      }
-      event.kind = Kind::kPress;
-      overview_.Handle(event);
-    }
-    if (input.released[button]) {
-      event.kind = Kind::kRelease;
-      overview_.Handle(event);
-    }
-  }
-  if (is_laying_) {
-    const Overview::Line line = overview_.LineThrough(event.x, event.y);
-    LayTissue(state, {line.eye, line.direction, line.px_per_radian});
-    if (!input.owned) {
-      EndDrag(state);
-      is_laying_ = false;
-    }
-  }
-  if (input.hovered || is_painting_) {
-    const Overview::Line line = overview_.LineThrough(event.x, event.y);
-    PointAtRelief(state, {line.eye, line.direction, line.px_per_radian}, is_painting_);
-  }
-  if (is_painting_ && !input.owned) {
-    EndStroke(state);
-    is_painting_ = false;
-  }
-  if (input.clicked && TakesTarget(state)) {
-    const auto place = overview_.PickTissue(event.x, event.y);
-    const Overview::Line line = overview_.LineThrough(event.x, event.y);
-    PlaceTarget(state, {line.eye, line.direction, line.px_per_radian},
-                place ? std::optional(TissueHit{place->tissue, place->x_in_tissue}) : std::nullopt);
-  }
-  if (input.clicked && PlacesLandmarks(state)) {
-    const auto place = overview_.PickTissueNear(event.x, event.y, kLandmarkReach * scale);
-    // A model point that waits for its partner is followed by a click on the relief.
-    if (place && !state.steps.tissue->landmarks.model) {
-      TakeModelPoint(state, place->tissue, place->x_in_tissue);
-    } else {
-      const Overview::Line line = overview_.LineThrough(event.x, event.y);
-      TakeScenePoint(state, {line.eye, line.direction, line.px_per_radian});
-    }
-  }
-  if (input.wheel != 0) {
-    event.kind = Kind::kWheel;
-    event.wheel = input.wheel;
-    overview_.Handle(event);
-  }
-  overview_.on_pose = {};
-  overview_.on_part = {};
 }
 
 }  // namespace arthro::app

@@ -14,6 +14,7 @@
 #include "app/editor/pictures/picture_rest.h"
 #include "app/editor/pictures/render_scale.h"
 #include "app/editor/pictures/shown_backdrop.h"
+#include "app/platform/translation.h"
 #include "app/recording/live_film.h"
 #include "app/state/editor_state.h"
 #include "app/steps/budget/frame_budget.h"
@@ -45,9 +46,8 @@ class Pictures {
   // user is busy elsewhere. True when it is not up to date yet.
   bool DrawOverview(EditorState& state, int width, int height);
   unsigned overview_texture() const { return has_overview_ ? overview_.TextureId() : 0; }
-  void SetOverviewLabels(const std::array<std::string, Overview::kLabels.size()>& words) {
-    overview_.SetLabels(words);
-  }
+  // Writes the labels of the overview in this language.
+  void SetOverviewLabels(Translation& translation);
   // Turns the overview or, on its handle, moves the chosen tissue. `scale`: of the window.
   void HandleOverview(EditorState& state, const OverviewInput& input, double scale = 1.0);
   std::optional<glm::dvec2> handle() const {
