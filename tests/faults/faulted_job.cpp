@@ -172,7 +172,7 @@ std::vector<FaultedJob> PracticeJobs() {
   add({"demo", {"demo", "-o", To("demo"), "--pictures", "2", "--size", "64"}, {}, {"demo/"}});
   add({"help", {"help", "troubleshooting"}, {}, {}});
   const Words replay{"replay", "knee", "session.bin", "-o", To("f.csv"), "--report", To("r.json")};
-  const Words robot{"robot", kDemo, "--exercise", kShort, "-o", To("r.attempt")};
+  const Words robot{"robot", kDemo, "--exercise", kShort, "--overwrite", "-o", To("r.attempt")};
   add({"robot", robot, Also(robot, {"--seed", "2"}), {"r.attempt"}});
   add({"replay",
        replay,
