@@ -65,6 +65,17 @@ TEST(CameraExposure, ResponseRisesFromBlackToWhiteWithoutAStep) {
   }
 }
 
+// A scope that looks past the end of its footage: the veil fills nine tenths of the window. By
+// ranks over the whole window half of the lit part was white.
+TEST(CameraExposure, TheVeilBesideALitPartDoesNotCountAsDarkTissue) {
+  const std::vector<MeteredPart> lit = Even(0.2, 0.8);
+  std::vector<MeteredPart> beside = Even(0.08, 0.085);
+  for (std::size_t i = 0; i < lit.size(); i += 10) beside[i] = lit[i];
+  const CameraExposure alone = ExposureOf(lit), small = ExposureOf(beside);
+  EXPECT_LT(std::abs(small.gain * 0.8 + small.offset - 1.03), 0.03);
+  EXPECT_LT(std::abs(alone.gain * 0.8 + alone.offset - 1.03), 0.03);
+}
+
 // A highlight that grows from nothing moves the exposure by small steps: a part of 3000 is 0.033 %,
 // and the mean over 3 % of the ranks moves by a hundredth of the step at most.
 TEST(CameraExposure, GrowingHighlightMovesTheExposureSmoothly) {
