@@ -208,9 +208,12 @@ std::vector<FaultedJob> MeasuringJobs() {
         To("a.json"), "--harm-force", "1"},
        {"a.csv", "a.html", "a.json"},
        {"assess", "knee", "trace.csv", "-o", "-"}});
-  const Words attempt{"assess",   kDemo,        "robot.attempt", "--exercise", kShort,
-                      "--report", To("r.html"), "--json",        To("r.json")};
-  add({"assess an attempt", attempt, Also(attempt, {"-o", To("r.csv")}), {"r.html", "r.json"}});
+  const Words attempt{"assess",    kDemo,      "robot.attempt", "--exercise", kShort,      "-o",
+                      To("r.csv"), "--report", To("r.html"),    "--json",     To("r.json")};
+  add({"assess an attempt",
+       attempt,
+       Also(attempt, {"--harm-force", "1"}),
+       {"r.csv", "r.html", "r.json"}});
   add({"bench",
        {"bench", "micro", "--quick", "--only", "scope", "--json", To("b.json"), "--plot",
         To("b.svg")},
