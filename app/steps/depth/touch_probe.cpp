@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kTick = 1e-3;      // s
 constexpr double kApproach = 3e-3;  // m, free way in front of the surface
+constexpr double kLeastApproach = 2e-4;
 constexpr int kApproachTicks = 60;
 constexpr double kSearch = 5e-3;  // m, behind the relief
 constexpr double kStep = 5e-5;    // m per tick
@@ -123,16 +124,20 @@ TouchReading TouchProbe::PressAlong(const glm::dvec3& point, const glm::dvec3& i
   TouchReading reading;
   reading.point = point;
   reading.range = glm::length(point);
-  // The instrument enters anew, through its portal.
-  session_.Tick({}, {}, kTick);
-  const glm::dvec3 before = point - kApproach * inwards;
-  tip_ = portal_ + 1e-3 * glm::normalize(before - portal_);
-  Lead(tip_, settled_);  // armed in free space
-  Lead(before, kApproachTicks);
   const simulation::ToolState& tool = session_.snapshot().instrument;
-  reading.is_reached = glm::distance(tool.proxy_in_portal, before) < kReached;
+  // In a narrow gap the place in front of one surface lies in the surface opposite.
+  double free_way = 2 * kApproach;
+  do {
+    free_way /= 2;
+    const glm::dvec3 before = point - free_way * inwards;
+    session_.Tick({}, {}, kTick);  // the instrument enters anew, through its portal
+    tip_ = portal_ + 1e-3 * glm::normalize(before - portal_);
+    Lead(tip_, settled_);  // armed in free space
+    Lead(before, kApproachTicks);
+    reading.is_reached = glm::distance(tool.proxy_in_portal, before) < kReached;
+  } while (tool.contact >= 0 && free_way > kLeastApproach);
   // The felt surface is smoothed, so it lies a little before or behind the relief.
-  double depth = -kApproach;
+  double depth = -free_way;
   while (tool.contact < 0 && depth < kSearch) Lead(point + (depth += kStep) * inwards, 1);
   Lead(point + (depth + press) * inwards, kPressTicks);
   Lead(point + (depth + press) * inwards, settled_);
