@@ -52,8 +52,10 @@ bool HasExercise(const EditorState& state) {
 
 void EditExercise(EditorState& state, const std::string& name, const std::string& merge_key,
                   const std::function<void(Exercise&)>& change) {
+  const Exercise* const now = ChosenExercise(state);
+  if (now == nullptr) return;
   const auto chosen = static_cast<std::size_t>(state.steps.lessons->chosen);
-  const Exercise& before = state.document().scene.exercises[chosen];
+  const Exercise& before = *now;
   Exercise changed = before;
   change(changed);
   if (changed == before) return;

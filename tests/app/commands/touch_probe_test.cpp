@@ -24,8 +24,7 @@ TEST(TouchPreviewOfTheDemo, FeelsEveryTissueInSight) {
   simulation::RodPose pose;
   pose.depth = 15e-3, pose.latitude = RadiansFromDegrees(-21.4);
   const simulation::ScopeOptics optics;
-  const simulation::ScopeView view =
-      simulation::ViewFromPose(pose, scene.scope.view_angle);
+  const simulation::ScopeView view = simulation::ViewFromPose(pose, scene.scope.view_angle);
   struct Count {
     int seen = 0, felt = 0, reached = 0;
   };

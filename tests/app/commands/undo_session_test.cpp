@@ -1,8 +1,6 @@
-// Long sessions of random commands: undo, redo and undo again give the same scenes, byte by byte.
+// Undo, saves, earlier versions and recent scenes of a session.
 #include <chrono>
 #include <fstream>
-#include <random>
-#include <set>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -13,16 +11,9 @@
 #include "app/files/scene_files.h"
 #include "app/platform/resource_folder.h"
 #include "app/state/edits.h"
-#include "app/steps/depth/depth_step.h"
 #include "app/steps/portals/portals_step.h"
-#include "app/steps/tissue/cut/tissue_cut.h"
-#include "app/steps/tissue/tissue_balls.h"
-#include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
-#include "simulation/core/fingerprint.h"
-#include "simulation/scene/files/scene_files.h"
-#include "simulation/scene/json/scene_json.h"
 #include "tests/app/commands/settle.h"
 #include "tests/support/build_paths.h"
 #include "tests/support/small_scene.h"
@@ -33,45 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-template <class Part>
-std::string MarkOf(const std::vector<Part>& part) {
-  return FingerprintOf({reinterpret_cast<const char*>(part.data()), part.size() * sizeof(Part)});
-}
-
-// Everything that a save of the document would write.
-std::string BytesOf(const authoring::Document& document) {
-  std::string text = PrettyJson(JsonFromScene(document.scene));
-  authoring::DepthOptions options = document.depth_options;
-  options.Visit([&](const char* name, auto& field, const auto&, const char*, const char*) {
-    text += name + std::string(" ") + std::to_string(static_cast<double>(field)) + "\n";
-  });
-  text += document.panorama ? MarkOf(document.panorama->rgb) : "no panorama";
-  text += document.depth ? MarkOf(document.depth->relief) : "no depth";
-  for (const auto& surface : document.surfaces)
-    text += MarkOf(surface->vertices) + MarkOf(surface->triangles);
-  for (const Tissue& tissue : document.scene.tissues)
-    if (!tissue.mesh.empty()) text += FingerprintOf(ReadWholeFile(FileOf(document, tissue.mesh)));
-  if (document.lens) text += std::to_string(document.lens->focal_px);
-  return text + (document.is_depth_imported ? " imported" : " made") + document.folder.string();
-}
-
 class UndoSession : public testing::Test {
  protected:
   UndoSession() {
     test::WriteSmallScene(temp / "knee");
     StartDocument(state, authoring::OpenDocument(temp / "knee"), true, NoteOnDisk(temp / "knee"));
-    state.steps.tissue->preset_folder = fs::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues";
-    LoadTissuePresets(state);
-    state.steps.tissue->mesh_size = authoring::MeshSize::kCoarse;
-    for (const Command& command : AllCommands()) {
-      // Without those that ask for a file, leave the scene or begin a practice.
-      const std::string group = command.group, id = command.id;
-      if (group == "Edit" || group == "Depth" || group == "Steps" || group == "Portals" ||
-          id == "make-depth")
-        if (id != "undo" && id != "redo" && id != "history" && id != "step-exercises" &&
-            !id.starts_with("import"))
-          commands.push_back(&command);
-    }
   }
   void Settle() { app::Settle(state); }
   std::string ErrorOnTop() const {
@@ -79,111 +36,10 @@ class UndoSession : public testing::Test {
         state.dialogs.empty() ? nullptr : std::get_if<ErrorDialog>(&state.dialogs.back());
     return error ? error->sentence : "";
   }
-  int Pick(int count) { return std::uniform_int_distribution<int>(0, count - 1)(random); }
-  double Share() { return std::uniform_real_distribution<double>(0, 1)(random); }
-  int TissueCount() const { return static_cast<int>(state.document().scene.tissues.size()); }
-
-  void EditByMouse() {
-    state.tissue = TissueCount() > 0 ? Pick(TissueCount()) : -1;
-    const glm::dvec3 place(0.006 * Share(), 0.006 * Share(), 0.006 * Share());
-    switch (Pick(14)) {
-      case 0:
-        return SetTitle(state, "title " + std::to_string(Pick(1000)));
-      case 1:
-        for (int i = 0; i < 5; ++i) SetIncisionSpacing(state, 0.01 + 0.03 * Share());
-        return EndDrag(state);
-      case 2:
-        return SetFieldOfView(state, 0.8 + Share());
-      case 3:
-        return SetRelight(state, Share());
-      case 4:
-        return SetRodLength(state, 0.15 + 0.1 * Share());
-      case 5:
-        return SetViewAngle(state, Pick(2) == 0 ? 0.5 : 1.2);
-      case 6: {
-        if (state.tissue < 0) return;
-        Tissue moved = state.document().scene.tissues[static_cast<std::size_t>(state.tissue)];
-        for (int i = 0; i < 4; ++i) {
-          moved.pose.position.x += 1e-3 * Share();
-          SetTissue(state, state.tissue, moved, "Place");
-        }
-        return EndDrag(state);
-      }
-      case 7:
-        if (TissueCount() < 4) DuplicateTissue(state, state.tissue);
-        return;
-      case 8:
-        if (TissueCount() > 1) RemoveTissue(state, state.tissue);
-        return;
-      case 9:
-        if (state.tissue >= 0) AddBall(state, BallKind::kHeld, state.tissue, place);
-        return;
-      case 10:
-        if (state.tissue >= 0) AddBall(state, BallKind::kProbed, state.tissue, place);
-        return;
-      case 11:
-        state.steps.tissue->cut_brush.kind =
-            Pick(2) == 0 ? CutBrush::Kind::kBite : CutBrush::Kind::kRegion;
-        if (state.tissue >= 0) UseCutBrush(state, state.tissue, place);
-        return;
-      case 12: {
-        authoring::DepthOptions options = state.document().depth_options;
-        options.gamma = 0.5 + Share();
-        return SetDepthOptions(state, options, "Gamma");
-      }
-      default: {
-        Backdrop backdrop = state.document().scene.backdrop;
-        backdrop.radius = 0.04 + 0.02 * Share();
-        return SetBackdrop(state, backdrop, "the radius");
-      }
-    }
-  }
-
-  void DoSomething() {
-    if (Pick(3) > 0) {
-      EditByMouse();
-    } else {
-      const Command& command = *commands[static_cast<std::size_t>(Pick(int(commands.size())))];
-      const long long before = state.history.StateId();
-      app::Run(state, command);
-      if (state.history.StateId() != before) used.insert(command.id);
-    }
-    state.dialogs.clear();
-    if (state.jobs.busy() || Pick(20) == 0) Settle();
-    if (Pick(10) == 0) app::Run(state, "undo");
-  }
-
-  // Scenes of every step, from the newest back to the oldest, or the other way.
-  std::vector<std::string> Walk(const char* command) {
-    std::vector<std::string> scenes = {BytesOf(state.document())};
-    while (CommandOf(state, command).enabled(state)) {
-      app::Run(state, command);
-      scenes.push_back(BytesOf(state.document()));
-    }
-    return scenes;
-  }
 
   test::TempFolder temp;
-  std::mt19937 random{7};
   EditorState state = MakeEditorState(NewDocument());
-  std::vector<const Command*> commands;
-  std::set<std::string> used;
 };
-
-TEST_F(UndoSession, AThousandRandomCommandsAreUndoneRedoneAndUndoneToTheSameBytes) {
-  for (int i = 0; i < 1000; ++i) DoSomething();
-  Settle();
-  Walk("redo");
-  const std::vector<std::string> undone = Walk("undo");
-  EXPECT_GT(undone.size(), 300u) << "most commands are steps";
-  EXPECT_GE(used.size(), 6u) << "commands that are edits";
-  std::vector<std::string> redone = Walk("redo");
-  std::reverse(redone.begin(), redone.end());
-  EXPECT_TRUE(redone == undone);
-  EXPECT_TRUE(Walk("undo") == undone);
-  RecordProperty("steps", static_cast<int>(undone.size()));
-  EXPECT_GT(std::set<std::string>(undone.begin(), undone.end()).size(), 250u);
-}
 
 // Tetrahedra that are made again do not take the place of those that undo brings back.
 TEST_F(UndoSession, AProductThatIsMadeAgainGetsAFileOfItsOwn) {
