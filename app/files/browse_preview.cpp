@@ -13,6 +13,8 @@
 #include "simulation/core/error.h"
 #include "simulation/scene/files/archive_io.h"
 #include "simulation/scene/image_io.h"
+#include "simulation/training/attempt_head.h"
+#include "simulation/training/attempt_log.h"
 
 namespace arthro::app {
 namespace {
@@ -44,6 +46,13 @@ FilePreview OfVideo(const fs::path& file) {
   return preview;
 }
 
+FilePreview OfAttempt(const fs::path& file) {
+  const simulation::AttemptHead head =
+      simulation::AttemptHeadOf(simulation::ReadAttempt(file).head, file);
+  return {file, nullptr,
+          fmt::format("Exercise {} of the scene \"{}\", {}", head.exercise, head.scene, head.mode)};
+}
+
 // The entry of the dialog on top that is chosen; nothing where no file browser is open.
 std::optional<fs::path> ChosenEntry(const EditorState& state) {
   if (state.dialogs.empty()) return std::nullopt;
@@ -70,6 +79,7 @@ FilePreview ReadFilePreview(const fs::path& file) {
     if (IsOneOf(ending, {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"})) return OfPicture(file);
     if (IsOneOf(ending, {".mp4", ".avi", ".mkv", ".mov", ".mpg", ".mpeg", ".webm", ".m4v"}))
       return OfVideo(file);
+    if (ending == ".attempt") return OfAttempt(file);
   } catch (const Error& fault) {
     return {file, nullptr, fault.sentence()};
   } catch (const std::exception& fault) {

@@ -6,6 +6,7 @@
 #include "app/platform/resource_folder.h"
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
+#include "app/steps/lessons/lessons_step.h"
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/panorama/panorama_step.h"
 #include "app/steps/practice/practice_step.h"
@@ -204,13 +205,15 @@ void OpenDropped(EditorState& state, const fs::path& file) {
     ImportPanorama(state, file);
   } else if (is_one_of({".stl", ".obj", ".ply", ".off", ".vtp", ".vtu"})) {
     AskForUnit(state, file);
+  } else if (extension == ".attempt") {
+    OpenAttemptFile(state, file);
   } else if (fs::is_directory(file) || is_one_of({".json", ".arthro"})) {
     GuardUnsaved(state, "open another scene", [file](EditorState& sure) { OpenScene(sure, file); });
   } else {
     throw Error(
         Code::kBadArgument,
-        "this is no scene, picture, video or surface; drop a scene, PNG, JPEG or TIFF picture, "
-        "video, folder of frames, STL, OBJ, PLY, OFF or VTP surface, or VTU volume",
+        "nothing that can be dropped; drop a scene, attempt, PNG, JPEG or TIFF picture, video, "
+        "folder of frames, STL, OBJ, PLY, OFF or VTP surface, or VTU volume",
         file);
   }
 }

@@ -38,6 +38,7 @@ struct ReplayJob {
   ReplayPictures::Form of_pictures, of_video{.size = 720};
   std::string layout{ToString(FrameShape::kSquare)}, head, disturb;
   int disturb_seed = 0;
+  bool no_flecks = false;
 };
 
 void Run(const ReplayJob& job) {
@@ -49,6 +50,7 @@ void Run(const ReplayJob& job) {
   ReplayPictures::Wish wish;
   if (!job.head.empty()) wish.head = simulation::CameraHeadFromString(job.head);
   if (!job.disturb.empty()) wish.disturbances = simulation::ParseDisturbances(job.disturb);
+  wish.has_flecks = !job.no_flecks;
   if (wish.disturbances) wish.disturbances->seed = job.disturb_seed;
   const VideoSize video_size = {FrameWidth(shape, job.of_video.size), job.of_video.size};
   if (!job.video.empty()) CheckVideo(job.video, video_size, job.of_video.rate);
@@ -149,6 +151,8 @@ void AddReplayJob(CLI::App& program) {
                       "Disturbances of pictures and film in place of the recorded ones, as the job "
                       "`view` takes them: " +
                           simulation::DisturbanceHelp());
+  command->add_flag("--no-flecks", job->no_flecks,
+                    "Leave out the flecks that drift in the fluid of the scene.");
   AddNumber(*command, "--disturb-seed", job->disturb_seed, kAnyWholeNumber, "",
             "Seed of bubbles, flakes and swirls.");
   AddOptions(*command, job->options);

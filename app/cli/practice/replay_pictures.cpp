@@ -29,7 +29,7 @@ void ReplayPictures::Watch(double t, const simulation::Snapshot& snapshot,
       if (picture.instrument) picture.instrument = tissues_.Settled(*picture.instrument);
       picture.disturbances = wish_.disturbances.value_or(snapshot.disturbances);
       picture.disturbances.time += t - begin_;
-      picture.flecks = FlecksIn(scene_.backdrop);
+      if (wish_.has_flecks) picture.flecks = FlecksIn(scene_.backdrop);
       row.take(LaidOut(pictures_.Draw(picture, row.form.size), row.form.shape));
       ++row.count;
     }

@@ -31,6 +31,7 @@ class ReplayPictures {
   struct Wish {
     std::optional<simulation::CameraHead> head;
     std::optional<Disturbances> disturbances;
+    bool has_flecks = true;  // the fluid of the scene moves them
   };
 
   // Trace from `begin` to `end`, s. Villi and disturbances that move do so by its time.

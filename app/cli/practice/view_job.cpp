@@ -27,7 +27,7 @@ struct ViewArguments {
   std::optional<double> view_angle_deg, head_roll_deg, field_of_view_deg;
   std::optional<double> relight;
   int size = 512;
-  bool plain = false, no_camera = false;
+  bool plain = false, no_camera = false, no_flecks = false;
   std::string disturb;
   int disturb_seed = 0;
   double disturb_time = 0;
@@ -61,7 +61,7 @@ void RunViewJob(const ViewArguments& arguments) {
   if (!arguments.no_camera) picture.camera = optics.camera;
   picture.plain = arguments.plain;
   picture.disturbances = disturbances;
-  picture.flecks = FlecksIn(loaded.scene.backdrop);
+  if (!arguments.no_flecks) picture.flecks = FlecksIn(loaded.scene.backdrop);
   picture.relief = arguments.plain || arguments.relief_steps ? ReliefSearch{} : kUsualRelief;
   if (arguments.relief_steps) picture.relief.steps = *arguments.relief_steps;
   if (arguments.relief_cell) picture.relief.cell = *arguments.relief_cell;
@@ -105,6 +105,8 @@ void AddViewJob(CLI::App& program) {
       "scope is drawn where it is put, also inside a surface.");
   job->add_flag("--no-camera", arguments->no_camera,
                 "Leave out the camera: its exposure, colour fringes, sharpness and grain.");
+  job->add_flag("--no-flecks", arguments->no_flecks,
+                "Leave out the flecks that drift in the fluid of the scene.");
   AddNumber(*job, "--relief-steps", arguments->relief_steps, {0, 4096}, "",
             "Largest number of samples per ray of the relief. 0: all colours lie on the bare "
             "sphere. Default: 64, or 0 with --plain.");

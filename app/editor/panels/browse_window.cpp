@@ -117,7 +117,8 @@ void Places(Ui& ui, EditorState& state, FileBrowserModel& model) {
 
 // Picture and words of the chosen entry.
 void Preview(Ui& ui, const EditorState& state, const PictureTextureOf& texture_of) {
-  if (!state.browsed) return;
+  if (!state.browsed || state.browsed->shown.file.empty())
+    return QuietText(ui, "Choose an entry to see it here.");
   const FilePreview& shown = state.browsed->shown;
   const float width = ImGui::GetContentRegionAvail().x;
   if (const unsigned texture = shown.picture ? texture_of(shown.picture) : 0; texture != 0) {

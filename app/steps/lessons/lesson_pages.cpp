@@ -151,11 +151,14 @@ void Summary(Ui& ui, EditorState& state, const FinishedAttempt& attempt) {
               result.outcome == AttemptOutcome::kPassed ? kGood : kWarning);
   Text(ui, attempt.exercise.title + ", " + ClockWords(result.duration));
   if (!result.reason.empty() && !attempt.is_unscored) Text(ui, result.reason);
-  if (!attempt.started.empty())
+  const char* const mode = attempt.is_robot ? "robot" : attempt.is_test ? "test" : "practice";
+  if (attempt.started.empty() && attempt.is_robot)
+    QuietText(ui, mode);
+  else if (!attempt.started.empty() && attempt.trainee.empty())
+    QuietText(ui, fmt::format("{} UTC, {}", TimeWords(attempt.started), mode));
+  else if (!attempt.started.empty())
     QuietText(ui, fmt::format("Trainee {}, {} UTC, {}", attempt.trainee, TimeWords(attempt.started),
-                              attempt.is_robot  ? "robot"
-                              : attempt.is_test ? "test"
-                                                : "practice"));
+                              mode));
   Notices(ui, attempt);
   if (!attempt.kept.empty())
     ColouredText(ui, attempt.kept, HasUnkeptAttempt(state) ? kBad : kQuiet);

@@ -163,6 +163,12 @@ void SetStanding(EditorState& state, const std::string& rig, FinishedAttempt& at
 // not the one it was made in, leave FinishedAttempt::notice. Throws Error where the records do not
 // have it.
 void ShowStoredAttempt(EditorState& state, const std::string& id);
+// Asks for the log of an attempt or recorded hands, and shows how they were done in the open scene:
+// hands at the chosen exercise. True where nothing is under way and the scene has exercises.
+bool MayOpenAttempt(const EditorState& state);
+void BrowseForAttempt(EditorState& state);
+// Throws Error where it may not be opened now; the job says what is wrong with the file.
+void OpenAttemptFile(EditorState& state, const std::filesystem::path& file);
 // Asks for a file, and writes the report of the attempt that is shown.
 void SaveReport(EditorState& state);
 

@@ -85,6 +85,11 @@ TEST_F(ViewJob, AppliesTheGivenDisturbances) {
   EXPECT_NE(drawn("--disturb haze=0.6,debris=1 --disturb-seed 2"), hazy);
   EXPECT_NE(drawn("--disturb haze=0.6,debris=1 --disturb-time 2"), hazy);
   EXPECT_EQ(drawn("--disturb haze=0 --disturb-time 2"), clear);
+  // Flecks drift in saline alone.
+  Scene scene = MakeViewScene().scene;
+  scene.backdrop.medium = Medium::kSaline;
+  WriteScene(folder_ / "scene.json", scene);
+  EXPECT_NE(drawn("--no-camera --no-flecks"), drawn("--no-camera"));
 }
 
 // Without a depth map the range of the lamp's light is unknown.

@@ -284,6 +284,8 @@ void InstructorPage(Ui& ui, EditorState& state) {
   ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), room.y - ui.Px(40)));
   CommandButton(ui, state, "attempt-table", {ui.Px(150), ui.Px(44)});
   ImGui::SameLine();
+  CommandButton(ui, state, "open-attempt", {ui.Px(170), ui.Px(44)});
+  ImGui::SameLine();
   CommandButton(ui, state, "trainee-page", {ui.Px(170), ui.Px(44)});
   ImGui::SameLine();
   CommandButton(ui, state, "close-lesson", {ui.Px(120), ui.Px(44)});

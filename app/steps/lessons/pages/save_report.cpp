@@ -24,7 +24,10 @@ AttemptReport ReportOfShown(const EditorState& state, const FinishedAttempt& att
   AttemptReport report = MakeReport(attempt.exercise, attempt.result, attempt.frames);
   report.attempt.id = attempt.id;
   report.attempt.scene = state.document().scene.title;
-  report.attempt.mode = attempt.is_test ? AttemptMode::kTest : AttemptMode::kPractice;
+  report.attempt.started = attempt.started;
+  report.attempt.mode = attempt.is_robot  ? AttemptMode::kRobot
+                        : attempt.is_test ? AttemptMode::kTest
+                                          : AttemptMode::kPractice;
   report.is_mode_known = true;
   report.trainee = attempt.trainee;
   if (attempt.track) report.track = attempt.track->pieces();

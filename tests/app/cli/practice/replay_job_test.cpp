@@ -143,6 +143,7 @@ TEST(ReplayJob, DisturbsItsPicturesByTheTimeOfTheTrace) {
   const auto clear = play("clear", ""), hazy = play("hazy", "--disturb haze=0.7,bubbles=0.5");
   EXPECT_NE(hazy, clear);
   EXPECT_EQ(play("again", "--disturb haze=0.7,bubbles=0.5 --disturb-seed 0"), hazy);
+  EXPECT_NE(play("bare", "--no-flecks"), clear);
   EXPECT_NE(play("other", "--disturb haze=0.7,bubbles=0.5 --disturb-seed 4"), hazy);
   EXPECT_EQ(ReadWholeFile(folder / "hazy.csv"), ReadWholeFile(folder / "clear.csv"))
       << "disturbances changed the forces";
