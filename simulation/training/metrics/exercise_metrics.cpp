@@ -16,6 +16,7 @@ constexpr int kLossEpisode = 50;         // frames, 0.5 s; a longer loss is an e
 constexpr int kSteadySight = 100;        // frames, 1 s, for which a tip that was found is seen
 constexpr double kNearLens = 2e-3;       // m
 constexpr double kHazeExtinction = 100;  // 1/m of green light at strength 1
+constexpr double kLeastPath = 1e-4;      // m; a shorter one is rounding
 constexpr double kDisturbed = 0.55;      // share of the light that is lost
 
 const ToolFrame& InstrumentOf(const AttemptFrame& frame) {
@@ -113,9 +114,10 @@ void MeasureEfficiency(std::span<const AttemptFrame> frames, const StepEngine& e
     std::optional<double> path;
     for (const MetricValue& value : measured)
       if (value.metric->id == "path" && value.part == part) path = value.value;
-    values.Give("path_efficiency", part,
-                path && *path > 0 ? std::optional(std::min(1.0, straight / *path)) : std::nullopt,
-                "the tool did not move in the joint");
+    values.Give(
+        "path_efficiency", part,
+        path && *path > kLeastPath ? std::optional(std::min(1.0, straight / *path)) : std::nullopt,
+        "the tool did not move in the joint");
   }
 }
 

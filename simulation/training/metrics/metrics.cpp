@@ -20,6 +20,8 @@ constexpr double kIdle = 0.005;  // m/s; a slower tool rests
 // m/s that a movement whose smoothness is measured reaches: tremor of a hand at rest is slower, and
 // so is rounding of the frames.
 constexpr double kLeastMovement = 0.001;
+// m/s, rms, by which a speed varies that is compared with another one; less is rounding.
+constexpr double kLeastVariation = 1e-6;
 constexpr double kShortestLeg = 1.0;    // s, of movement whose smoothness is measured
 constexpr double kReleasedAfter = 0.3;  // s without a touch, after which another contact begins
 
@@ -116,9 +118,9 @@ std::optional<double> Correlation(const std::vector<std::array<double, 2>>& pair
     product += (pair[0] - mean[0]) * (pair[1] - mean[1]);
     for (std::size_t i = 0; i < 2; ++i) square[i] += std::pow(pair[i] - mean[i], 2);
   }
-  const double scale = std::sqrt(square[0] * square[1]);
-  if (!(scale > 0)) return std::nullopt;
-  return product / scale;
+  const double least = static_cast<double>(pairs.size()) * kLeastVariation * kLeastVariation;
+  if (!(square[0] > least && square[1] > least)) return std::nullopt;
+  return product / std::sqrt(square[0] * square[1]);
 }
 
 struct ContactSum {

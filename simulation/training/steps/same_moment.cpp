@@ -31,7 +31,7 @@ const StepResult* StepAt(std::span<const StepResult> steps, double t) {
 StepTime TimeOf(std::span<const StepResult> steps, const StepResult& step) {
   StepTime time{step.began, step.ended.value_or(step.began)};
   for (const StepResult& each : steps)
-    if (IsDone(each) && &each != &step && *each.ended <= time.end)
+    if (IsDone(each) && &each != &step && *each.ended < time.end)
       time.begin = std::max(time.begin, *each.ended);
   return time;
 }

@@ -16,6 +16,11 @@ constexpr int kLongestLoss = 100;  // frames, 1 s, without a device
 constexpr int kQuiet = 10;         // frames, 0.1 s, that end a bite
 constexpr std::size_t kUsualEvents = 256;
 
+bool SeesTargets(const ExerciseStep& step) {
+  return std::holds_alternative<SeeStep>(step) || std::holds_alternative<HoldStep>(step) ||
+         std::holds_alternative<PeriscopeStep>(step);
+}
+
 }  // namespace
 
 StepEngine::StepEngine(Exercise exercise, double safe_force)
@@ -29,9 +34,7 @@ StepEngine::StepEngine(Exercise exercise, double safe_force)
     uses_instrument_ = uses_instrument_ || UsesInstrument(step);
     const auto targets = static_cast<int>(TargetsOf(exercise_, step).size());
     most_cues += static_cast<std::size_t>(targets) + 1;
-    if (std::holds_alternative<SeeStep>(step) || std::holds_alternative<HoldStep>(step) ||
-        std::holds_alternative<PeriscopeStep>(step))
-      measures_.to_see += targets;
+    if (SeesTargets(step)) measures_.to_see += targets;
     if (std::holds_alternative<ProbeStep>(step)) measures_.to_probe += targets;
   }
   strip_.cues.reserve(most_cues);
@@ -64,6 +67,7 @@ void StepEngine::End(AttemptEnd end, std::string reason) {
   if (end_ != AttemptEnd::kRunning) return;
   end_ = end;
   reason_ = std::move(reason);
+  EndBite();
   Event(EventKind::kAttemptEnd, "", reason_);
 }
 
@@ -73,6 +77,11 @@ void StepEngine::Begin(std::size_t step, const StepFrame& at) {
   result.began = now();
   result.ended.reset();
   Event(EventKind::kStepStart, result.id);
+  // A step that begins again counts its targets anew.
+  const auto counted =
+      static_cast<int>(std::ranges::count_if(states_[step].dwell, &Dwell::is_done));
+  if (std::holds_alternative<ProbeStep>(exercise_.steps[step])) measures_.probed -= counted;
+  if (SeesTargets(exercise_.steps[step])) measures_.seen -= counted;
   StartStep(exercise_.steps[step], at, states_[step]);
   if (const auto* recover = std::get_if<RecoverStep>(&exercise_.steps[step])) {
     bleeding_ = static_cast<int>(step);
@@ -208,8 +217,12 @@ void StepEngine::CheckTissue(const AttemptFrame& frame) {
   if (!taking_.is_under_way) return;
   taking_.taken += frame.taken;
   taking_.outside += frame.taken_outside;
-  if (frame.taken > 0 || ++taking_.quiet <= kQuiet) return;
-  // A bite that took nothing has the value 0.
+  if (!(frame.taken > 0) && ++taking_.quiet > kQuiet) EndBite();
+}
+
+// A bite that took nothing has the value 0.
+void StepEngine::EndBite() {
+  if (!taking_.is_under_way) return;
   Event(EventKind::kBite, "", {}, taking_.taken);
   if (taking_.outside > 0) Event(EventKind::kCutOutside, "", {}, taking_.outside);
   taking_ = {};
@@ -308,9 +321,9 @@ void StepEngine::Advance(const AttemptFrame& frame, std::span<const TraineeAct> 
   strip_.is_paused = is_paused_ = frame.is_paused;
   if (is_paused_) return;
   ++unpaused_;
+  CheckTissue(frame);
   if (!CheckLimits(frame)) return;
   CheckZones(frame);
-  CheckTissue(frame);
   const StepFrame at{exercise_, frame, acts, measures_, *this};
   AdvanceSteps(at);
   UpdateStrip(at);

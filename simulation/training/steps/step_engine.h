@@ -91,6 +91,7 @@ class StepEngine : private StepEvents {
   bool CheckLimits(const AttemptFrame& frame);
   void CheckZones(const AttemptFrame& frame);
   void CheckTissue(const AttemptFrame& frame);
+  void EndBite();
   void AdvanceSteps(const StepFrame& at);
   void UpdateHaze();
   void UpdateStrip(const StepFrame& at);

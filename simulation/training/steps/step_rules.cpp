@@ -50,12 +50,14 @@ bool IsSeen(const StepFrame& at, int target, const SightLimits& limits) {
 }
 
 // The metrics of camera handling, while the target is in the picture.
-void MeasureView(const StepFrame& at, int target, const glm::dvec2& distance) {
+// Without a distance that is asked for, only the place in the picture is measured.
+void MeasureView(const StepFrame& at, int target,
+                 const std::optional<glm::dvec2>& distance = std::nullopt) {
   const PointSight* sight = SightOf(at, target);
   if (sight == nullptr || !sight->is_clear) return;
   const double r = sight->distance;
   at.measures.centring.Add(sight->centre);
-  at.measures.distance_error.Add(std::max({0.0, distance.x - r, r - distance.y}));
+  if (distance) at.measures.distance_error.Add(std::max({0.0, distance->x - r, r - distance->y}));
 }
 
 double RadiusOf(const StepFrame& at, int target) {
@@ -163,9 +165,8 @@ struct Rule {
   StepOutcome operator()(const TelescopeStep& step) {
     const int target = state.targets.front();
     const PointSight* sight = SightOf(at, target);
-    const double distance = sight != nullptr ? static_cast<double>(sight->distance) : 0;
     const bool is_centred = IsSeen(at, target, {step.centre, {0.0, kFarAway}, kAnyIncidence});
-    MeasureView(at, target, {std::min(step.near, distance), std::max(step.far, distance)});
+    MeasureView(at, target);
     if (state.dwell.front().Add(is_centred, kOffCentre)) {
       at.events.Add(EventKind::kLost, target, 0, "");
       state.at = 0;

@@ -31,6 +31,15 @@ TEST(SameMoment, FollowsTheStepsInTheOrderInWhichTheyWereDone) {
   EXPECT_DOUBLE_EQ(SameMoment(own, expert, 25), 1) << "half of a, which the expert did first";
 }
 
+TEST(SameMoment, OfStepsThatEndInOneFrameBeginsWhereTheStepBeforeEnded) {
+  const std::vector<StepResult> own = {Done("a", 0, 10), Done("b", 0, 30), Done("c", 0, 30)};
+  for (const std::size_t step : {1U, 2U}) {
+    const StepTime time = TimeOf(own, own[step]);
+    EXPECT_DOUBLE_EQ(time.begin, 10);
+    EXPECT_DOUBLE_EQ(time.end, 30);
+  }
+}
+
 TEST(SameMoment, OfAStepThatWasNotDoneFollowsTheClock) {
   std::vector<StepResult> own = {Done("a", 0, 10), {"b", StepOutcome::kFailed, 10, 60.0}};
   const std::vector<StepResult> expert = {Done("a", 0, 4), Done("b", 4, 10)};

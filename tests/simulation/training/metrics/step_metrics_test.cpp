@@ -57,6 +57,17 @@ TEST(StepMetrics, PathEfficiencyOfStraightWaysIsOne) {
   EXPECT_NEAR(ValueIn(values, "path_efficiency", "instrument"), 1, 1e-6);
 }
 
+// Filtering of a constant leaves a path of 1e-16 m, and speeds that differ by as much.
+TEST(StepMetrics, AToolAtRestHasNoEfficiencyAndNoCorrelation) {
+  const auto frames = test::FramesOfTip(401, DeviceRole::kInstrument,
+                                        [](int) { return glm::dvec3(0.007, 0, 0.01); });
+  const auto acts = ActsIn(401, {ActKind::kAnswer, 0, ""}, {150, 400});
+  const auto values = MeasuredAttempt(test::ExerciseOf({Question(), Question()}), frames, acts);
+  EXPECT_TRUE(IsMissingIn(values, "path_efficiency", "instrument"));
+  EXPECT_TRUE(IsMissingIn(values, "path_efficiency", "scope"));
+  EXPECT_TRUE(IsMissingIn(values, "bimanual_r", "both"));
+}
+
 TEST(StepMetrics, LookDownsAreThoseOfTheInstructor) {
   const std::vector<AttemptFrame> frames(100, test::QuietFrame());
   const auto acts = ActsIn(100, {ActKind::kLookDown, 0, ""}, {0, 40, 41});
@@ -131,6 +142,32 @@ TEST(StepMetrics, CentringAndDistanceErrorAreMeansWhileTheTargetIsClear) {
   const auto none = MeasuredAttempt(test::ExerciseOf({step}), hidden);
   EXPECT_TRUE(IsMissingIn(none, "centring", "scope"));
   EXPECT_TRUE(IsMissingIn(none, "distance_error", "scope"));
+}
+
+// A telescope step asks for no distance: it is about the way between two.
+TEST(StepMetrics, ATelescopeStepHasCentringAndNoDistanceError) {
+  TelescopeStep step;
+  step.targets = {"t0"};
+  const std::vector<AttemptFrame> frames(50, test::QuietFrame());
+  const auto values = MeasuredAttempt(test::ExerciseOf({step}), frames);
+  EXPECT_NEAR(ValueIn(values, "centring", "scope"), 0.1, 1e-7);
+  EXPECT_TRUE(IsMissingIn(values, "distance_error", "scope"));
+}
+
+// A wrong answer leads back to a target that was seen, and pressed, before.
+TEST(StepMetrics, ATargetOfAStepThatBeginsAgainCountsOnce) {
+  SeeStep see;
+  see.targets = {"t0"};
+  ProbeStep probe = ProbeOf({"t0"});
+  AnswerStep question = Question();
+  question.choices[0].next = "s0";
+  const Exercise exercise = test::ExerciseOf({see, probe, question});
+  std::vector<AttemptFrame> frames(800, test::PressFrame(0, 1.0F));
+  auto acts = ActsIn(800, {ActKind::kAnswer, 0, ""}, {390});
+  acts[790].push_back({ActKind::kAnswer, 1, ""});
+  const auto values = MeasuredAttempt(exercise, frames, acts);
+  EXPECT_EQ(ValueIn(values, "seen_share", "scope"), 1);
+  EXPECT_EQ(ValueIn(values, "probed_share", "instrument"), 1);
 }
 
 // The goal moves by 4 mm/s along 10 mm, that is for 250 frames. Root mean square of a whole period

@@ -140,6 +140,22 @@ TEST(TissueMetrics, PassesOfAShaverArePartedByATenthOfASecond) {
   EXPECT_EQ(ValueIn(values, "bites_outside", "instrument"), 0);
 }
 
+// An attempt that ends within a bite has that bite, as it has its volume.
+TEST(TissueMetrics, TheBiteInWhichAnAttemptEndsCounts) {
+  std::vector<AttemptFrame> frames(10, CutFrame(ToolKind::kPunch, 1, 0));
+  test::Append(frames, 1, CutFrame(ToolKind::kPunch, 0, 2e-9F, 1e-9F));
+  const auto stopped = MeasuredAttempt(TrimOfTwoRegions(), frames);
+  frames.back().tool[1].is_valid = true;
+  frames.back().tool[1].peak_force = 20;
+  Exercise limited = TrimOfTwoRegions();
+  limited.limits.force = 15;
+  for (const auto& values : {stopped, MeasuredAttempt(limited, frames)}) {
+    EXPECT_EQ(ValueIn(values, "bites", "instrument"), 1);
+    EXPECT_EQ(ValueIn(values, "bites_outside", "instrument"), 1);
+    EXPECT_NEAR(ValueIn(values, "taken_outside", "instrument"), 1e-9, 1e-16);
+  }
+}
+
 // A body is let go three times on its way, and then in its goal.
 TEST(EventMetrics, DropsAreThoseBesideTheGoal) {
   TransferStep step;
