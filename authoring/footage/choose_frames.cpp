@@ -22,7 +22,7 @@ std::vector<std::string> ReasonsAgainst(const std::vector<FrameLook>& looks,
   std::vector<std::size_t> left;
   for (std::size_t i = 0; i < looks.size(); ++i) {
     if (i % static_cast<std::size_t>(options.every) != 0)
-      reasons[i] = fmt::format("skipped: one frame in {} is used", options.every);
+      reasons[i] = fmt::format("one frame in {} is used", options.every);
     else if (options.skip_blank && !looks[i].blank.empty())
       reasons[i] = "blank: " + looks[i].blank;
     else

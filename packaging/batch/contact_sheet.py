@@ -1,4 +1,4 @@
-# One HTML page with a row per clip: pictures, placed and rejected frames, expected error, depth noise and verdict.
+# One HTML page with a row per clip: pictures, frames, expected error, depth noise and verdict.
 import html
 import json
 from collections import Counter
@@ -32,6 +32,7 @@ def row(name):
     frames = report.get("frames", [])
     reasons = Counter(frame["reason"] for frame in frames if frame["status"] == "rejected")
     placed = sum(frame["status"] == "placed" for frame in frames)
+    skipped = sum(frame["reason"].startswith("skipped: ") for frame in frames)
     remarks = []
     for step in ("panorama", "depth", "check", "view"):
         remarks += [f"{step}: {line}" for line in (out / name / f"{step}.txt").read_text().splitlines()]
@@ -44,7 +45,7 @@ def row(name):
         html.escape(name),
         picture(name, "panorama-small.png", "panorama.png", "panorama"),
         picture(name, "view.png", "view.png", "view"),
-        f"{placed} / {len(frames) - placed}" if frames else "–",
+        f"{placed} / {len(frames) - placed - skipped} / {skipped}" if frames else "–",
         f'{number(report.get("mean_error_px"))} / {number(report.get("max_error_px"))}',
         number(check.get("relief", {}).get("median_sigma"), 1e3, 2),
         html.escape(verdict),
@@ -55,14 +56,16 @@ def row(name):
 
 
 head = [
-    "clip", "panorama", "view", "frames placed / rejected", "expected error, mean / largest, px",
+    "clip", "panorama", "view", "frames placed / rejected / skipped", "expected error, mean / largest, px",
     "depth noise, mm", "check", "remarks",
 ]
 style = (
     "body{font:15px sans-serif;margin:1rem}table{border-collapse:collapse}"
     "th,td{text-align:left;vertical-align:top;padding:.4rem .8rem;border-bottom:1px solid #ccc}"
     "img{height:140px;max-width:280px;object-fit:contain;background:#000}"
-    ".refused{background:#fbeaea}td:last-child{overflow-wrap:anywhere}"
+    ".refused{background:#fbeaea}td:last-child{overflow-wrap:anywhere;min-width:14rem}"
+    "@page{size:A4 landscape;margin:1cm}"
+    "@media print{body{font-size:10px;margin:0}th,td{padding:.3rem}img{height:90px;max-width:130px}}"
 )
 page = f"""<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>Scenes</title><style>{style}</style></head><body>
