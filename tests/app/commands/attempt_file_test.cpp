@@ -12,10 +12,8 @@
 #include "app/steps/lessons/keeping/lesson_records.h"
 #include "app/steps/lessons/keeping/start_board.h"
 #include "app/steps/lessons/lessons_step.h"
-#include "app/steps/lessons/running_attempt.h"
 #include "app/steps/lessons/trainee.h"
-#include "app/steps/practice/practice_step.h"
-#include "app/steps/tissue/tissue_step.h"
+#include "tests/app/commands/lesson_test.h"
 #include "tests/app/commands/settle.h"
 #include "tests/support/temp_folder.h"
 
@@ -27,11 +25,6 @@ namespace fs = std::filesystem;
 class AttemptFiles : public testing::Test {
  protected:
   AttemptFiles() { Prepare(state); }
-  static void Prepare(EditorState& one) {
-    one.steps.practice->pace = simulation::TissuePace::kInline;
-    one.steps.tissue->preset_folder = ResourceFolder() / "presets" / "tissues";
-    LoadTissuePresets(one);
-  }
   // The log of an attempt at the first exercise, which another window began and stopped.
   fs::path Log(FinishedAttempt& finished) {
     EditorState other = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
