@@ -31,7 +31,6 @@
 #include "app/files/step_pictures.h"
 #include "app/platform/ending_signals.h"
 #include "app/platform/picture_window.h"
-#include "app/platform/resource_folder.h"
 #include "app/platform/script/script_runner.h"
 #include "app/platform/window.h"
 #include "app/platform/x_display.h"
@@ -90,7 +89,8 @@ class Editor {
       script_->SetActions(std::move(actions));
       script_->SetJobLimit(std::chrono::minutes(options.job_minutes));
     }
-    Begin();
+    BeginFrom(options_, state_);
+    recovery_.Offer(state_);
   }
 
   void Run() {
@@ -167,51 +167,6 @@ class Editor {
     recorder_.Follow(
         state_, widgets_, pointer, scale, static_cast<int>(std::lround(window_.width() / scale)),
         static_cast<int>(std::lround(window_.height() / scale)), Busy(), LaysOnRelief(state_));
-  }
-
-  void Begin() {
-    state_.views = ReadViewLayout(FileOfViews(options_));
-    state_.settings = SettingsFrom(options_);
-    state_.practice_only = options_.practice;
-    if (options_.scene) {
-      const SceneOnDisk on_disk = NoteOnDisk(*options_.scene);
-      StartDocument(state_, OpenSceneDocument(*options_.scene), true, on_disk);
-    } else if (!options_.script && options_.frames == 0) {
-      ShowStartPage(state_);
-    } else if (const auto demo = ResourceFolder() / "demo";
-               std::filesystem::exists(demo / "scene.json")) {
-      StartDocument(state_, OpenSceneDocument(demo), true);
-    }
-    state_.steps.practice->hands = std::make_unique<simulation::Hands>(options_.hands);
-    state_.steps.practice->session_options = options_.session;
-    state_.steps.panorama->lens_folder = ResourceFolder() / "presets" / "lenses";
-    state_.steps.tissue->preset_folder = ResourceFolder() / "presets" / "tissues";
-    state_.steps.practice->rig_preset_folder = ResourceFolder() / "presets" / "rigs";
-    LoadTissuePresets(state_);
-    if (options_.script) state_.steps.practice->pace = simulation::TissuePace::kInline;
-    if (!options_.practice && options_.scene)
-      state_.recent.Add(state_.document().folder.empty() ? *options_.scene
-                                                         : state_.document().folder);
-    state_.steps.practice->frame_shape = options_.frame_shape;
-    state_.steps.practice->head = options_.head;
-    state_.steps.practice->trainee_screen = {options_.trainee_screen.has_value(),
-                                             options_.trainee_screen.value_or(0), ""};
-    if (options_.practice && !options_.lesson)
-      BeginPractice();
-    else
-      state_.message =
-          options_.notice.empty() ? "F1 or ? opens the manual at this page." : options_.notice;
-    OpenLessons(state_, RecordsFor(options_));
-    if (const auto& lesson = options_.lesson)
-      OpenBriefing(state_, lesson->exercise, lesson->trainee, lesson->is_test);
-    recovery_.Offer(state_);
-  }
-
-  void BeginPractice() {
-    if (!MayPractise(state_)) return;
-    StartPractice(state_, [film = options_.film](EditorState& state) {
-      if (film) BeginFilm(state, *film);
-    });
   }
 
   // Sleeps until there is something to draw.

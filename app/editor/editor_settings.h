@@ -1,6 +1,6 @@
-// Settings of a window as its options and the user's files give them: size, looks, language, and
-// the files that it keeps. Scripts and single frames read and leave nothing of the user's, unless
-// they are told where.
+// Begin of a window as its options and the user's files ask for it: size, looks, language, the
+// files that it keeps, and what it opens on. Scripts and single frames read and leave nothing of
+// the user's, unless they are told where.
 #pragma once
 
 #include <filesystem>
@@ -28,5 +28,9 @@ double ScaleFrom(const EditorOptions& options, const WindowSettings& settings,
                  const MonitorSize& monitor);
 // A script that names no language is in English, whatever the environment.
 Translation TranslationFrom(const EditorOptions& options, const WindowSettings& settings);
+
+// Opens the scene or the start page, takes the devices, begins a practice or shows the briefing of
+// an exercise. Throws Error for a scene that cannot be read and an exercise that is not there.
+void BeginFrom(const EditorOptions& options, EditorState& state);
 
 }  // namespace arthro::app
