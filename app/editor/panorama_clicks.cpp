@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "app/editor/marks/landmark_marks.h"
+#include "app/state/edits.h"
 #include "app/steps/tissue/hand_placing.h"
 #include "app/steps/tissue/landmark_mode.h"
 #include "simulation/scene/projection.h"
@@ -41,7 +42,10 @@ void PanoramaPicture(Ui& ui, EditorState& state, PanoramaClicks& clicks, const A
     clicks.zoom = Zoomed(clicks.zoom, io.MouseWheel, pointer, frame, size);
   const bool is_click = ImGui::IsItemDeactivated() && ImGui::IsItemHovered() &&
                         io.MouseDragMaxDistanceSqr[0] <= kSlack * kSlack;
-  if (ImGui::IsItemActive() && !ImGui::IsItemActivated())
+  const bool lays = LaysOnRelief(state) && !io.KeyShift;
+  const bool is_held = ImGui::IsItemActive() && !ImGui::IsItemActivated();
+  const bool is_released = ImGui::IsItemDeactivated();
+  if (is_held && !lays)
     clicks.zoom = Dragged(clicks.zoom, {io.MouseDelta.x, io.MouseDelta.y}, frame, size);
 
   const PicturePlace place = PlaceOf(clicks.zoom, frame, size);
@@ -59,15 +63,18 @@ void PanoramaPicture(Ui& ui, EditorState& state, PanoramaClicks& clicks, const A
 
   const double px_per_pixel = place.size.x / size.x;
   const Projection& projection = state.document().scene.backdrop.projection;
-  if (is_click && PlacesLandmarks(state)) {
-    const glm::dvec2 pixel = (pointer - place.corner) / px_per_pixel - 0.5;
-    if (pixel.x >= -0.5 && pixel.y >= -0.5 && pixel.x < size.x - 0.5 && pixel.y < size.y - 0.5)
-      TakeScenePoint(state, authoring::SightOfPanorama(state.document().scene.backdrop, pixel));
-  }
+  const glm::dvec2 pixel = (pointer - place.corner) / px_per_pixel - 0.5;
+  const bool is_in =
+      pixel.x >= -0.5 && pixel.y >= -0.5 && pixel.x < size.x - 0.5 && pixel.y < size.y - 0.5;
+  if (is_in && is_click && PlacesLandmarks(state))
+    TakeScenePoint(state, authoring::SightOfPanorama(state.document().scene.backdrop, pixel));
+  if (is_in && is_held && lays)
+    LayTissue(state, authoring::SightOfPanorama(state.document().scene.backdrop, pixel));
+  if (is_released && LaysOnRelief(state)) EndDrag(state);
   MarkPanorama(ui, state, area, [&](const glm::dvec3& x) -> std::optional<glm::dvec2> {
-    const auto pixel = PixelFromDirection(projection, x);
-    if (!pixel) return std::nullopt;
-    const glm::dvec2 at = place.corner + px_per_pixel * (*pixel + 0.5);
+    const auto marked = PixelFromDirection(projection, x);
+    if (!marked) return std::nullopt;
+    const glm::dvec2 at = place.corner + px_per_pixel * (*marked + 0.5);
     return glm::dvec2(area.x + at.x, area.y + at.y);
   });
 }

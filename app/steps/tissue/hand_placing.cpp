@@ -237,7 +237,7 @@ void ToggleLaying(EditorState& state) {
   placing.picks_patch = false;
   placing.tissue = PlacedTissue(state).name;
   if (placing.lays) NoteBefore(state);
-  state.message = placing.lays ? "Drag over the scope's picture or the overview to lay it there."
+  state.message = placing.lays ? "Drag over the scope's picture, the panorama or the overview to lay it there."
                                : "Drags turn and move the views again.";
 }
 

@@ -1,4 +1,5 @@
 // Tissues in the window: placed, meshed, given a material, held, cut and poked.
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "simulation/scene/files/scene_io.h"
@@ -32,6 +33,25 @@ expect "Saved in"
   const TetMesh mesh = ReadTetMesh(scene / saved.tissues.at(0).mesh);
   EXPECT_GT(mesh.ElementCount(), 0);
   EXPECT_EQ(mesh.order, 2);
+}
+
+// The panorama was moved by the drag.
+TEST_F(EditorWindow, ADragOverThePanoramaLaysTheTissueThere) {
+  const glm::dvec3 before = ReadScene(scene).tissues.at(0).pose.position;
+  Drive(R"(
+click Tissue
+do lay-on-relief
+wait frames 3
+click "Show the panorama"
+wait frames 3
+drag "Panorama picture" 30 10
+expect Undo
+click Save
+wait job
+expect "Saved in"
+)");
+  const glm::dvec3 laid = ReadScene(scene).tissues.at(0).pose.position;
+  EXPECT_GT(glm::distance(laid, before), 1e-3);
 }
 
 TEST_F(EditorWindow, MaterialIsChosenWithItsSourcesAndItsStiffnessTyped) {
