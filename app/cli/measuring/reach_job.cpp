@@ -8,11 +8,13 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/cli/flags/number_flags.h"
 #include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
+#include "app/steps/portals/spacing_targets.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/csv_field.h"
 #include "simulation/core/error.h"
@@ -31,25 +33,14 @@ using simulation::ReachShares;
 struct ReachArguments {
   std::filesystem::path scene, output, picture;
   std::optional<double> view_angle_deg, spacing_mm;
-  std::string target, portals, knee = "right";
+  std::vector<std::string> targets;
+  std::string portals, knee = "right";
 };
 
 std::string Row(const std::string& target, const ReachShares& shares) {
   return fmt::format("{},{:.4f},{:.4f},{:.4f},{:.4f},{:.1f}\n", CsvField(target), shares.seen,
                      shares.touched, shares.both, shares.good,
                      DegreesFromRadians(shares.median_angle));
-}
-
-// Index of a tissue by its name; -1 for the relief.
-int TargetOf(const LoadedScene& loaded, const std::string& name) {
-  if (name == "relief") return -1;
-  std::string names = "relief";
-  for (std::size_t i = 0; i < loaded.scene.tissues.size(); ++i) {
-    if (loaded.scene.tissues[i].name == name) return static_cast<int>(i);
-    names += ", " + loaded.scene.tissues[i].name;
-  }
-  throw Error(Code::kBadArgument,
-              fmt::format("--suggest: there is no \"{}\" here; name one of {}", name, names));
 }
 
 void RunReachJob(const ReachArguments& arguments) {
@@ -61,9 +52,9 @@ void RunReachJob(const ReachArguments& arguments) {
   if (!arguments.portals.empty())
     loaded.scene.portals.incision_spacing = simulation::SpacingOf(
         *simulation::FindNamedPortals(arguments.portals), arguments.knee == "left");
-  const bool is_asked = !arguments.target.empty();
-  const int target = is_asked ? TargetOf(loaded, arguments.target) : -1;
-  const simulation::ScopeReach scope = simulation::ScopeReachOf(loaded);
+  const PlacedTargets placed =
+      PlaceTargets(loaded, SpacingTargetsOf(loaded.scene, arguments.targets));
+  const simulation::ScopeReach scope = simulation::ScopeReachOf(loaded, {}, placed.points);
   const simulation::PortalReach reach =
       simulation::ReachWith(scope, loaded, loaded.scene.portals.incision_spacing);
   if (!arguments.picture.empty())
@@ -74,10 +65,10 @@ void RunReachJob(const ReachArguments& arguments) {
   for (std::size_t i = 0; i < reach.tissues.size(); ++i)
     table += Row(loaded.scene.tissues[i].name, reach.tissues[i]);
   WriteAtomically(arguments.output, table);
-  if (!is_asked) return;
-  const double spacing = simulation::SuggestedSpacing(scope, loaded, simulation::TargetsOf(target));
+  if (arguments.targets.empty()) return;
+  const double spacing = simulation::SuggestedSpacing(scope, loaded, placed.targets);
   fmt::print(arguments.output == "-" ? stderr : stdout,
-             "suggested incision spacing for {}: {:.0f} mm\n", arguments.target,
+             "suggested incision spacing for {}: {:.0f} mm\n", fmt::join(arguments.targets, ", "),
              MmFromMetres(spacing));
 }
 
@@ -107,9 +98,12 @@ void AddReachJob(CLI::App& program) {
       ->excludes("--spacing-mm");
   job->add_option("--knee", arguments->knee, "Side of the knee for --portals. Default: right.")
       ->check(CLI::IsMember({"right", "left"}));
-  job->add_option("--suggest", arguments->target,
-                  "Print the incision spacing that suits a tissue best, or the relief: the name of "
-                  "a tissue, or relief.");
+  job->add_option("--suggest", arguments->targets,
+                  "Print the incision spacing that suits a target best: relief, a tissue, or a "
+                  "target of an exercise as EXERCISE: TARGET. More than one suit the same; give "
+                  "the flag for each.")
+      ->type_name("TARGET")
+      ->allow_extra_args(false);
   files
       ->Output(
           job->add_option("-o,--output", arguments->output,

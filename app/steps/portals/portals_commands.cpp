@@ -99,22 +99,7 @@ void ShowReach(State& state, const CommandArguments& arguments) {
 }
 
 void SuggestFor(State& state, const CommandArguments& arguments) {
-  const std::vector<SpacingTarget> every = EverySpacingTarget(state.document().scene);
-  std::vector<SpacingTarget> chosen;
-  for (const std::string& argument : arguments) {
-    const auto found = std::find_if(every.begin(), every.end(), [&](const SpacingTarget& target) {
-      return WordsOf(target) == argument;
-    });
-    if (found == every.end()) {
-      std::string names;
-      for (const SpacingTarget& target : every)
-        names += (names.empty() ? "" : ", ") + WordsOf(target);
-      throw Error(Code::kBadArgument,
-                  fmt::format("there is no target \"{}\"; name some of: {}", argument, names));
-    }
-    chosen.push_back(*found);
-  }
-  state.steps.portals->reach.targets = std::move(chosen);
+  state.steps.portals->reach.targets = SpacingTargetsOf(state.document().scene, arguments);
   SuggestSpacing(state);
 }
 

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "app/steps/portals/portals_step.h"
+#include "simulation/core/error.h"
 #include "simulation/training/observe/exercise_targets.h"
 
 namespace arthro::app {
@@ -42,6 +45,25 @@ std::vector<SpacingTarget> EverySpacingTarget(const Scene& scene) {
     for (const ExerciseTarget& target : exercise.targets)
       every.push_back({SpacingKind::kExercise, exercise.id, target.id});
   return every;
+}
+
+std::vector<SpacingTarget> SpacingTargetsOf(const Scene& scene,
+                                            const std::vector<std::string>& words) {
+  const std::vector<SpacingTarget> every = EverySpacingTarget(scene);
+  std::vector<SpacingTarget> chosen;
+  for (const std::string& word : words) {
+    const auto found =
+        std::ranges::find(every, word, [](const SpacingTarget& target) { return WordsOf(target); });
+    if (found == every.end()) {
+      std::string names;
+      for (const SpacingTarget& target : every)
+        names += (names.empty() ? "" : ", ") + WordsOf(target);
+      throw Error(Code::kBadArgument,
+                  fmt::format("there is no target \"{}\"; name some of: {}", word, names));
+    }
+    chosen.push_back(*found);
+  }
+  return chosen;
 }
 
 std::vector<SpacingTarget> ChosenSpacingTargets(const EditorState& state) {

@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "app/state/editor_state.h"
 #include "simulation/practice/reach/portal_reach.h"
 
 namespace arthro::app {
+
+struct EditorState;  // app/state/editor_state.h
 
 struct SpacingTarget {
   enum class Kind { kRelief, kTissue, kExercise } kind = Kind::kRelief;
@@ -20,6 +21,9 @@ std::string WordsOf(const SpacingTarget& target);  // "relief", "meniscus", "dia
 
 // Every one that the scene offers: the relief, then tissues, then targets of exercises.
 std::vector<SpacingTarget> EverySpacingTarget(const Scene& scene);
+// Those of these words. Throws Error(kBadArgument) with every word for one that is not there.
+std::vector<SpacingTarget> SpacingTargetsOf(const Scene& scene,
+                                            const std::vector<std::string>& words);
 // The chosen ones that there still are. Without one: the tissue that is chosen, else the first one,
 // else the relief.
 std::vector<SpacingTarget> ChosenSpacingTargets(const EditorState& state);

@@ -237,8 +237,9 @@ void ToggleLaying(EditorState& state) {
   placing.picks_patch = false;
   placing.tissue = PlacedTissue(state).name;
   if (placing.lays) NoteBefore(state);
-  state.message = placing.lays ? "Drag over the scope's picture, the panorama or the overview to lay it there."
-                               : "Drags turn and move the views again.";
+  state.message =
+      placing.lays ? "Drag over the scope's picture, the panorama or the overview to lay it there."
+                   : "Drags turn and move the views again.";
 }
 
 void LayTissue(EditorState& state, const authoring::Sight& sight) {

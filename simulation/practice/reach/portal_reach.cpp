@@ -232,13 +232,6 @@ PortalReach ReachWith(const ScopeReach& scope, const LoadedScene& loaded, double
   return reach;
 }
 
-ReachTargets TargetsOf(int tissue) {
-  ReachTargets targets;
-  targets.has_relief = tissue < 0;
-  if (tissue >= 0) targets.tissues = {tissue};
-  return targets;
-}
-
 double SuggestedSpacing(const ScopeReach& scope, const LoadedScene& loaded,
                         const ReachTargets& targets, const ReachLimits& limits) {
   // The tissue and the point of each target, as places bear them.

@@ -76,7 +76,6 @@ struct ReachTargets {
   std::vector<int> tissues;
   std::vector<int> points;  // indices in those that the reach of the scope was computed with
 };
-ReachTargets TargetsOf(int tissue);  // one tissue; -1: the relief
 
 // Incision spacing, of those from −60 to 60 mm in steps of 2 mm that leave 10 mm between the
 // portals, with the largest mean share of good places of the targets, then of places reached by

@@ -167,7 +167,7 @@ TEST(PortalReach, SuggestsTheSideThatReaches) {
   loaded.scene.tissues = {ball};
   loaded.scene.portals.incision_spacing = 0.03;
   const ScopeReach scope = ScopeReachOf(loaded);
-  const double spacing = SuggestedSpacing(scope, loaded, TargetsOf(0));
+  const double spacing = SuggestedSpacing(scope, loaded, {false, {0}, {}});
   EXPECT_LT(spacing, 0) << "the wall stands on the right";
   const auto share = [&](double b) { return ReachWith(scope, loaded, b).tissues[0]; };
   for (int mm = 10; mm <= 60; mm += 2)
@@ -230,7 +230,7 @@ TEST(PortalReach, OfNothingIsNothing) {
   const ScopeReach scope = ScopeReachOf(empty);
   EXPECT_TRUE(scope.places.empty());
   EXPECT_EQ(ReachWith(scope, empty, 0.03).relief.seen, 0);
-  EXPECT_EQ(SuggestedSpacing(scope, empty, TargetsOf(-1)), empty.scene.portals.incision_spacing);
+  EXPECT_EQ(SuggestedSpacing(scope, empty, {true, {}, {}}), empty.scene.portals.incision_spacing);
 }
 
 }  // namespace
