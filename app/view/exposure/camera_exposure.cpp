@@ -17,52 +17,49 @@ constexpr double kWhiteFrom = 0.955, kWhiteTo = 0.985;
 // Levels before toe and shoulder at which black and white are shown.
 constexpr double kBlackShown = 0.05, kWhiteShown = 1.03;
 constexpr float kChannelShare = 0.85f;  // largest channel in the white level; the rest is luma
-// Luma above the black level from which a part counts fully in the white level: where the footage
-// ends there is only the veil, and a small lit part beside it would be white.
+// Luma above the black level from which a part is lit, and the share of lit parts of a usual
+// picture. Where the footage ends there is only the veil: ranks over the whole window would make
+// half of a small lit part white.
 constexpr float kLit = 0.08f;
+constexpr double kUsuallyLit = 0.9;
 constexpr double kMostGain = 2.0;
 constexpr double kMostBlack = 0.3;     // a brighter veil stays grey
 constexpr double kLeastCounted = 0.1;  // share of the parts
 
-struct Level {
-  float level = 0, weight = 1;
-};
-
-// Mean over a range of ranks, each level as wide as its weight. At least one part's width counts.
-double MeanOfRanks(std::vector<Level>& levels, double from, double to) {
-  std::ranges::sort(levels, {}, &Level::level);
-  double all = 0;
-  for (const Level& one : levels) all += one.weight;
-  const double begin = from * all, end = std::max(to * all, begin + 1.0);
-  double rank = 0, sum = 0, share = 0;
-  for (const Level& one : levels) {
-    const double within = std::min(rank + one.weight, end) - std::max(rank, begin);
-    if (within > 0) sum += within * one.level, share += within;
-    rank += one.weight;
-  }
-  return share > 0 ? sum / share : static_cast<double>(levels.back().level);
+double MeanOfRanks(std::vector<float>& sorted, double from, double to) {
+  const auto last = static_cast<double>(sorted.size());
+  const auto begin = static_cast<std::size_t>(from * last);
+  const auto end = std::max(begin + 1, static_cast<std::size_t>(to * last));
+  double sum = 0;
+  for (std::size_t i = begin; i < end; ++i) sum += sorted[i];
+  return sum / static_cast<double>(end - begin);
 }
 
 }  // namespace
 
 CameraExposure ExposureOf(std::span<const MeteredPart> parts) {
-  std::vector<Level> dark, bright;
+  std::vector<float> dark, bright;
   for (const MeteredPart& part : parts) {
     if (!part.counts) continue;
     const float luma = static_cast<float>(kLumaRed) * part.rgb.r +
                        static_cast<float>(kLumaGreen) * part.rgb.g +
                        static_cast<float>(kLumaBlue) * part.rgb.b;
-    dark.push_back({luma});
-    bright.push_back(
-        {glm::mix(luma, std::max({part.rgb.r, part.rgb.g, part.rgb.b}), kChannelShare), luma});
+    dark.push_back(luma);
+    bright.push_back(glm::mix(luma, std::max({part.rgb.r, part.rgb.g, part.rgb.b}), kChannelShare));
   }
   if (static_cast<double>(dark.size()) < kLeastCounted * static_cast<double>(parts.size()) ||
       dark.empty())
     return {};
+  std::sort(dark.begin(), dark.end());
+  std::sort(bright.begin(), bright.end());
   const double black = std::min(MeanOfRanks(dark, kBlackFrom, kBlackTo), kMostBlack);
-  for (Level& one : bright)
-    one.weight = glm::smoothstep(0.0f, kLit, one.weight - static_cast<float>(black));
-  const double white = MeanOfRanks(bright, kWhiteFrom, kWhiteTo);
+  double lit = 0;
+  for (const float luma : dark)
+    lit += static_cast<double>(glm::smoothstep(0.0f, kLit, luma - static_cast<float>(black)));
+  // Ranks from the top, of as many parts as a usual picture would have with these lit ones.
+  const double share = std::min(lit / (kUsuallyLit * static_cast<double>(dark.size())), 1.0);
+  const double white =
+      MeanOfRanks(bright, 1 - share * (1 - kWhiteFrom), 1 - share * (1 - kWhiteTo));
   // Neither raises black nor dims a picture that is bright already.
   const double shown = std::min(black, kBlackShown);
   const double gain =
