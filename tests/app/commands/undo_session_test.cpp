@@ -12,6 +12,7 @@
 #include "app/platform/resource_folder.h"
 #include "app/state/edits.h"
 #include "app/steps/portals/portals_step.h"
+#include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "tests/app/commands/settle.h"
@@ -29,6 +30,8 @@ class UndoSession : public testing::Test {
   UndoSession() {
     test::WriteSmallScene(temp / "knee");
     StartDocument(state, authoring::OpenDocument(temp / "knee"), true, NoteOnDisk(temp / "knee"));
+    state.steps.tissue->preset_folder = fs::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues";
+    LoadTissuePresets(state);
   }
   void Settle() { app::Settle(state); }
   std::string ErrorOnTop() const {
