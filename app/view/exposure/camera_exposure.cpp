@@ -26,9 +26,10 @@ constexpr double kMostGain = 2.0;
 constexpr double kMostBlack = 0.3;     // a brighter veil stays grey
 constexpr double kLeastCounted = 0.1;  // share of the parts
 
-double MeanOfRanks(std::vector<float>& sorted, double from, double to) {
+// At least one level counts: the last one from the rank 1 on.
+double MeanOfRanks(const std::vector<float>& sorted, double from, double to) {
   const auto last = static_cast<double>(sorted.size());
-  const auto begin = static_cast<std::size_t>(from * last);
+  const auto begin = std::min(static_cast<std::size_t>(from * last), sorted.size() - 1);
   const auto end = std::max(begin + 1, static_cast<std::size_t>(to * last));
   double sum = 0;
   for (std::size_t i = begin; i < end; ++i) sum += sorted[i];

@@ -77,6 +77,15 @@ TEST(CameraExposure, TheVeilBesideALitPartDoesNotCountAsDarkTissue) {
     EXPECT_NEAR(exposure.gain * white + exposure.offset, 1.03, 0.01);
 }
 
+// Nothing is lit where all is one level, so no rank is left: the level beyond the last one was
+// read. As many parts as a vector that grows has room for let a sanitizer see it.
+TEST(CameraExposure, APictureOfOneLevelHasTheLargestGain) {
+  for (const float level : {0.0f, 0.1f, 0.25f}) {
+    const std::vector<MeteredPart> parts(4096, MeteredPart{glm::vec3(level), true});
+    EXPECT_EQ(ExposureOf(parts).gain, 2.0) << level;
+  }
+}
+
 // A highlight that grows from nothing moves the exposure by small steps: a part of 3000 is 0.033 %,
 // and the mean over 3 % of the ranks moves by a hundredth of the step at most.
 TEST(CameraExposure, GrowingHighlightMovesTheExposureSmoothly) {
