@@ -33,10 +33,8 @@
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/training/assessment.h"
 #include "simulation/training/attempt_log.h"
-#include "simulation/training/observe/surface_names.h"
 #include "simulation/training/observed_recording.h"
 #include "simulation/training/scene_of_attempt.h"
-#include "simulation/training/score/recorded_result.h"
 
 namespace arthro::app {
 namespace {
@@ -113,13 +111,10 @@ AttemptReport AssessExercise(const AssessJob& job, const LoadedScene& loaded,
   simulation::RecordedAttempt attempt = Observed(job, loaded, exercise, bytes, head);
   const auto records = GroupRecords(job);
   const std::string hash = ExerciseRowOf(exercise).hash;
-  const auto expert = GhostOf(loaded, exercise);
-  simulation::GhostPath ghost;
-  if (expert) ghost = {expert->recording.frames, expert->result.steps};
-  const simulation::AttemptResult result = simulation::ResultOfRecording(
-      attempt, exercise, simulation::SurfaceNames(loaded.scene),
+  const simulation::AttemptResult result = ResultBesideGhost(
+      loaded, exercise, attempt,
       records ? GroupValuesOf(*records, hash, head.rig) : std::vector<simulation::GroupValues>(),
-      job.limits, expert ? &ghost : nullptr);
+      job.limits);
   AttemptReport report = MakeReport(exercise, result, std::move(attempt.frames));
   report.track = std::move(attempt.track);
   report.attempt.id = head.attempt;

@@ -5,6 +5,7 @@
 #include "simulation/core/error.h"
 #include "simulation/scene/json/exercise_json.h"
 #include "simulation/training/attempt_head.h"
+#include "simulation/training/observe/surface_names.h"
 #include "simulation/training/scene_of_attempt.h"
 #include "simulation/training/score/recorded_result.h"
 
@@ -55,6 +56,17 @@ std::optional<ExpertAttempt> GhostOf(const LoadedScene& loaded, const Exercise& 
   } catch (const Error&) {  // the check of the scene, and the look back, say why
     return std::nullopt;
   }
+}
+
+simulation::AttemptResult ResultBesideGhost(const LoadedScene& loaded, const Exercise& exercise,
+                                            const simulation::RecordedAttempt& recording,
+                                            std::span<const simulation::GroupValues> groups,
+                                            const simulation::MetricLimits& limits) {
+  const auto expert = GhostOf(loaded, exercise);
+  simulation::GhostPath ghost;
+  if (expert) ghost = {expert->recording.frames, expert->result.steps};
+  return simulation::ResultOfRecording(recording, exercise, simulation::SurfaceNames(loaded.scene),
+                                       groups, limits, expert ? &ghost : nullptr);
 }
 
 }  // namespace arthro::app

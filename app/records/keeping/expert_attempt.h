@@ -5,12 +5,14 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "app/records/store/records.h"
 #include "simulation/scene/files/loaded_scene.h"
 #include "simulation/training/attempt_log.h"
 #include "simulation/training/attempt_result.h"
+#include "simulation/training/score/criteria.h"
 
 namespace arthro::app {
 
@@ -35,5 +37,11 @@ ExpertAttempt ReadExpert(const LoadedScene& loaded, const Exercise& exercise,
 // The recording that the exercise itself names, for ghost_distance; nothing where it names none, or
 // one that cannot be read.
 std::optional<ExpertAttempt> GhostOf(const LoadedScene& loaded, const Exercise& exercise);
+
+// Result of a recording in this scene, with its distance from that recording of an expert.
+simulation::AttemptResult ResultBesideGhost(const LoadedScene& loaded, const Exercise& exercise,
+                                            const simulation::RecordedAttempt& recording,
+                                            std::span<const simulation::GroupValues> groups = {},
+                                            const simulation::MetricLimits& limits = {});
 
 }  // namespace arthro::app

@@ -102,6 +102,17 @@ TEST_F(AttemptFiles, RecordedHandsAreJudgedByTheChosenExercise) {
   EXPECT_EQ(shown()->exercise, state.document().scene.exercises.front());
 }
 
+// The dialog asked for an exercise, as for recorded hands.
+TEST_F(AttemptFiles, APictureUnderTheNameOfAnAttemptIsNoRecording) {
+  const fs::path picture = folder / "picture.attempt", empty = folder / "empty.attempt";
+  fs::copy_file(ResourceFolder() / "demo" / "panorama.jpg", picture);
+  std::ofstream(empty).close();
+  Open(picture);
+  EXPECT_NE(Fault().find("this is no recording of the program"), std::string::npos) << Fault();
+  Open(empty);
+  EXPECT_NE(Fault().find("this file is empty"), std::string::npos) << Fault();
+}
+
 TEST_F(AttemptFiles, WhatIsNoAttemptOfThisSceneIsRefusedInASentence) {
   FinishedAttempt own;
   const fs::path log = Log(own), broken = folder / "broken.attempt", text = folder / "text.csv";

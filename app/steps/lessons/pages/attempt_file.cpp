@@ -18,10 +18,8 @@
 #include "simulation/device/log/log_replay.h"
 #include "simulation/scene/exercise/find_exercise.h"
 #include "simulation/training/attempt_log.h"
-#include "simulation/training/observe/surface_names.h"
 #include "simulation/training/observed_recording.h"
 #include "simulation/training/scene_of_attempt.h"
-#include "simulation/training/score/recorded_result.h"
 
 namespace arthro::app {
 namespace {
@@ -45,12 +43,7 @@ FinishedAttempt Judged(const AttemptFile& from, const Exercise& exercise,
                        simulation::RecordedAttempt attempt) {
   FinishedAttempt shown;
   shown.exercise = exercise;
-  const auto expert = GhostOf(from.document, exercise);
-  simulation::GhostPath ghost;
-  if (expert) ghost = {expert->recording.frames, expert->result.steps};
-  shown.result = simulation::ResultOfRecording(attempt, exercise,
-                                               simulation::SurfaceNames(from.document.scene), {},
-                                               {}, expert ? &ghost : nullptr);
+  shown.result = ResultBesideGhost(from.document, exercise, attempt);
   AddSentence(shown.notice, attempt.torn);
   AddSentence(shown.notice, attempt.track_fault);
   shown.frames = std::move(attempt.frames);
@@ -82,13 +75,13 @@ FinishedAttempt FromLog(const AttemptFile& from, const simulation::DeviceLogCont
 
 // Marks and answers of a trainee are in no recording of hands: such steps stay open.
 FinishedAttempt FromHands(const AttemptFile& from, const Progress& progress) {
+  std::string notice;
+  const simulation::Recording hands = simulation::ReadRecording(from.file, notice);
   if (from.chosen.empty())
     throw Error(Code::kBadArgument,
                 "recorded hands do not say their exercise; first choose it on the page Exercises",
                 from.file);
   const Exercise& exercise = ExerciseWithId(from.document.scene.exercises, from.chosen);
-  std::string notice;
-  const simulation::Recording hands = simulation::ReadRecording(from.file, notice);
   std::vector<std::string> messages;
   simulation::RecordedAttempt attempt;
   attempt.frames = simulation::ObserveRecording(from.document, hands, exercise, from.options,
