@@ -26,11 +26,18 @@
 namespace arthro::app {
 namespace {
 
-TEST(LessonAuthor, AnAuthoredExerciseCanBeUndoneStepByStepAndBegun) {
+// The page Exercises of the demo.
+class LessonAuthor : public testing::Test {
+ protected:
+  LessonAuthor() {
+    Prepare(state);
+    state.step = Step::kExercises;
+  }
   EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
-  Prepare(state);
+};
+
+TEST_F(LessonAuthor, AnAuthoredExerciseCanBeUndoneStepByStepAndBegun) {
   const Scene before = state.document().scene;
-  state.step = Step::kExercises;
   state.scope = {-0.3, 0.1, 0.2, 0.015};
   app::Run(state, "new-exercise");
   EXPECT_EQ(ChosenExercise(state)->setup.scope, (StartPose{-0.3, 0.1, 0.2, 0.015}))
@@ -57,10 +64,7 @@ TEST(LessonAuthor, AnAuthoredExerciseCanBeUndoneStepByStepAndBegun) {
   }
 }
 
-TEST(LessonAuthor, AStepWithoutAHintOffersNone) {
-  EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
-  Prepare(state);
-  state.step = Step::kExercises;
+TEST_F(LessonAuthor, AStepWithoutAHintOffersNone) {
   app::Run(state, "new-exercise");
   AddTarget(state);
   PlaceTarget(state, {{0, 0, 0.01}, {0, 0, 1}}, std::nullopt);
@@ -75,10 +79,7 @@ TEST(LessonAuthor, AStepWithoutAHintOffersNone) {
   EXPECT_EQ(BaseOf(ChosenExercise(state)->steps[0]).cue_after, 20);
 }
 
-TEST(LessonAuthor, ARenamedTargetIsNamedAnewWhereverTheExerciseSpeaksOfIt) {
-  EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
-  Prepare(state);
-  state.step = Step::kExercises;
+TEST_F(LessonAuthor, ARenamedTargetIsNamedAnewWhereverTheExerciseSpeaksOfIt) {
   app::Run(state, "new-exercise");
   AddTarget(state);
   AddTarget(state);
@@ -108,7 +109,6 @@ TEST(LessonAuthor, ARenamedTargetIsNamedAnewWhereverTheExerciseSpeaksOfIt) {
 
 // A new exercise with points on the relief, a ball, a loose body and a region.
 void AuthorTargets(EditorState& state) {
-  state.step = Step::kExercises;
   app::Run(state, "new-exercise");
   for (int i = 0; i < 5; ++i) {
     AddTarget(state);
@@ -120,9 +120,7 @@ void AuthorTargets(EditorState& state) {
   EditExercise(state, "Loose", "", [](Exercise& e) { e.targets[3].is_loose = true; });
 }
 
-TEST(LessonAuthor, TargetsOfEveryKindAreMadeWhereTheyLay) {
-  EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
-  Prepare(state);
+TEST_F(LessonAuthor, TargetsOfEveryKindAreMadeWhereTheyLay) {
   AuthorTargets(state);
   const auto targets = ChosenExercise(state)->targets;
   EXPECT_TRUE(targets[0].bearing);
@@ -143,9 +141,7 @@ TEST(LessonAuthor, TargetsOfEveryKindAreMadeWhereTheyLay) {
   EXPECT_TRUE(ChosenExercise(state)->targets[2].ball) << "a click moves a ball, which stays one";
 }
 
-TEST(LessonAuthor, ANewStepOfEachKindIsValidWhereTheExerciseHasItsTargets) {
-  EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
-  Prepare(state);
+TEST_F(LessonAuthor, ANewStepOfEachKindIsValidWhereTheExerciseHasItsTargets) {
   AuthorTargets(state);
   constexpr int kKinds = static_cast<int>(std::variant_size_v<ExerciseStep>);
   for (int kind = 0; kind < kKinds; ++kind) {
@@ -169,10 +165,7 @@ TEST(LessonAuthor, ANewStepOfEachKindIsValidWhereTheExerciseHasItsTargets) {
   app::Run(state, "end-attempt");
 }
 
-TEST(LessonAuthor, AStepWithoutItsTargetsSaysWhatItLacksAndCanBeSaved) {
-  EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
-  Prepare(state);
-  state.step = Step::kExercises;
+TEST_F(LessonAuthor, AStepWithoutItsTargetsSaysWhatItLacksAndCanBeSaved) {
   app::Run(state, "new-exercise");
   constexpr int kKinds = static_cast<int>(std::variant_size_v<ExerciseStep>);
   std::size_t added = 0;
@@ -196,9 +189,7 @@ TEST(LessonAuthor, AStepWithoutItsTargetsSaysWhatItLacksAndCanBeSaved) {
   EXPECT_EQ(ReadScene(folder / "unfinished").exercises.back().steps.size(), added);
 }
 
-TEST(LessonAuthor, ARemovedTargetIsTakenFromEveryListAndARequiredOneStays) {
-  EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
-  Prepare(state);
+TEST_F(LessonAuthor, ARemovedTargetIsTakenFromEveryListAndARequiredOneStays) {
   AuthorTargets(state);
   constexpr int kKinds = static_cast<int>(std::variant_size_v<ExerciseStep>);
   for (int kind = 0; kind < kKinds; ++kind) AddStep(state, kind);
@@ -223,9 +214,7 @@ TEST(LessonAuthor, ARemovedTargetIsTakenFromEveryListAndARequiredOneStays) {
   EXPECT_TRUE(std::get<ResectStep>(left.steps[9]).regions.empty());
 }
 
-TEST(LessonAuthor, EveryEditRaisesTheVersionOncePerStepOfTheHistory) {
-  EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
-  Prepare(state);
+TEST_F(LessonAuthor, EveryEditRaisesTheVersionOncePerStepOfTheHistory) {
   Choose(state, "telescope");
   const int before = ChosenExercise(state)->version;
   const auto set_radius = [&](double radius) {
@@ -254,10 +243,7 @@ TEST(LessonAuthor, EveryEditRaisesTheVersionOncePerStepOfTheHistory) {
   EXPECT_GT(ChosenExercise(state)->version, first.version);
 }
 
-TEST(LessonAuthor, TheCheckOfPosesNamesATargetThatNoPoseSees) {
-  EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
-  Prepare(state);
-  state.step = Step::kExercises;
+TEST_F(LessonAuthor, TheCheckOfPosesNamesATargetThatNoPoseSees) {
   app::Run(state, "new-exercise");
   AddTarget(state);
   PlaceTarget(state, {{0, 0, 0.01}, {0, 0, 1}}, std::nullopt);
@@ -279,7 +265,7 @@ TEST(LessonAuthor, TheCheckOfPosesNamesATargetThatNoPoseSees) {
             std::vector<std::string>{"No pose sees \"target-1\" with 30°."});
 }
 
-TEST(LessonAuthor, ACriterionBeginsWithToolLimitAndSource) {
+TEST_F(LessonAuthor, ACriterionBeginsWithToolLimitAndSource) {
   for (const simulation::Metric& metric : simulation::EveryMetric()) {
     const Criterion criterion = StartCriterion(std::string(metric.id));
     EXPECT_NE(criterion.min.has_value(), criterion.max.has_value()) << metric.id;
@@ -290,10 +276,7 @@ TEST(LessonAuthor, ACriterionBeginsWithToolLimitAndSource) {
   EXPECT_EQ(StartCriterion("peak_force").max, simulation::kSafeProbingForce);
 }
 
-TEST(LessonAuthor, ATargetThatLiesOnNothingIsRefusedInWordsAndNoPracticeIsLeftBehind) {
-  EditorState state = MakeEditorState(OpenSceneDocument(ResourceFolder() / "demo"));
-  Prepare(state);
-  state.step = Step::kExercises;
+TEST_F(LessonAuthor, ATargetThatLiesOnNothingIsRefusedInWordsAndNoPracticeIsLeftBehind) {
   app::Run(state, "new-exercise");
   EditExercise(state, "Target", "", [](Exercise& exercise) {
     ExerciseTarget target;
