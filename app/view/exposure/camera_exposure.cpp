@@ -57,7 +57,7 @@ CameraExposure ExposureOf(std::span<const MeteredPart> parts) {
   double lit = 0;
   for (const float luma : dark)
     lit += static_cast<double>(glm::smoothstep(0.0f, kLit, luma - static_cast<float>(black)));
-  // Ranks from the top, of as many parts as a usual picture would have with these lit ones.
+  // Fewer of the brightest parts count, in proportion to those that are lit.
   const double share = std::min(lit / (kUsuallyLit * static_cast<double>(dark.size())), 1.0);
   const double white =
       MeanOfRanks(bright, 1 - share * (1 - kWhiteFrom), 1 - share * (1 - kWhiteTo));
